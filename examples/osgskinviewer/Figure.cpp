@@ -50,7 +50,7 @@ private:
 bool hasBody(const std::string& file) {
     const bool isSkin = osgDB::getLowerCaseFileExtension(file) == "skin";
     if (isSkin && osgDB::fileExists(file)) return true;
-    return osgSkin::isReadByAssimp(isSkin ? osgDB::getNameLessExtension(file) : file);
+    return osgSkin::hasImporter(isSkin ? osgDB::getNameLessExtension(file) : file);
 }
 
 osg::ref_ptr<osg::Group> readScene(const std::string& file) {

@@ -135,9 +135,9 @@ TEST(GuardedCharacter, SavedScenesAreReadWhereFormatsNameThem) {
     for (const char* format :
          {"osgb", "osgt", "osgx", "osg", "ive", "OSGB", "osgb.2,0.5,1.scale"}) {
         const std::string file = skin(folder, "saved", parts(std::string("body.") + format, rig));
-        expectSays(refusal(file), "from trusted files only; to trust it, name its format in the "
+        expectSays(refusal(file), "is for trusted files; to trust it, name its format in the "
                                   "option formats (-O \"formats=skin,");
-        expectSays(refusal(file, "formats=skin,bvh"), "from trusted files only");
+        expectSays(refusal(file, "formats=skin,bvh"), "is for trusted files");
         expectSays(refusal(file, "formats=all"), "body.");
         EXPECT_EQ(refusal(file, "formats=all").find("trusted"), std::string::npos);
     }
@@ -176,7 +176,7 @@ TEST(GuardedCharacter, NamesAreNoLongerThanNamesOfFiles) {
         EXPECT_LT(refused.size(), 1000u);
     }
     expectSays(refusal(skin(folder, "zero", parts("tube.gltf\\u0000", "rig.bvh"))),
-               "zero.skin: mesh: a name with a byte 0 in it");
+               "zero.skin: mesh: the file's name contains a zero byte");
     for (const std::string& members :
          {mesh + "\"bind\": \"" + many + '"', mesh + "\"joints\": {\"" + many + "\": 1}"})
         EXPECT_LT(refusal(skin(folder, "quoted", members)).size(), 1500u);
@@ -410,14 +410,14 @@ TEST(GuardedCharacter, GltfIsCheckedBeforeItIsRead) {
         {"/meshes/0/primitives/0/mode", 77, "mode: expected a whole number below 7"},
         {"/accessors/0/count", huge, "expected elements within the buffer view"},
         {"/accessors/0/byteOffset", huge, "expected elements within the buffer view"},
-        {"/accessors/0/bufferView", 99, "expected a buffer view that is there"},
+        {"/accessors/0/bufferView", 99, "expected an existing buffer view"},
         {"/accessors/0/type", "MAT4", "expected"},
         {"/accessors/0/componentType", 1, "expected a component type"},
         {"/accessors/2/count", 1, "expected 3 elements, as many as of POSITION"},
         {"/accessors/1/componentType", 5126, "expected"},
         {"/bufferViews/0/byteOffset", huge, "expected a buffer view within its buffer"},
         {"/bufferViews/0/byteLength", huge, "expected a buffer view within its buffer"},
-        {"/bufferViews/0/byteStride", 1, "expected a stride of an element at least"},
+        {"/bufferViews/0/byteStride", 1, "expected a stride of at least one element"},
         {"/buffers/0/uri", "data:application/octet-stream;base64,AAAA", "within its buffer"},
         {"/scenes/0/nodes", {0, 0}, "scenes[0].nodes"},
         {"/scene", 5, "scene (one of scenes)"},

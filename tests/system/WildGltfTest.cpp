@@ -270,7 +270,7 @@ TEST(WildGltf, SceneryIsNoPartOfTheFigure) {
     const test::Notices notices;
     const Character character = loadCharacter(column.save("scenery.gltf"));
     EXPECT_EQ(character.body.mesh.positions.size(), 24u + 8u);
-    EXPECT_TRUE(notices.say("2 things beside the figure are left out, \"floor\" among them"))
+    EXPECT_TRUE(notices.say("2 objects beside the figure are left out, \"floor\" among them"))
         << notices.text();
 }
 

@@ -6,6 +6,7 @@
 #include "NamedCase.h"
 #include "Notices.h"
 #include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
@@ -28,10 +29,7 @@
 namespace {
 
 std::string plainText() {
-    std::ifstream file(testData("bvh/two_joints.bvh"), std::ios::binary);
-    std::ostringstream content;
-    content << file.rdbuf();
-    return content.str();
+    return test::fileText(testData("bvh/two_joints.bvh"));
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -42,26 +40,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text;
 }
 
-/// A BVH file that exists while this lives.
-class TemporaryBvh {
-public:
-    explicit TemporaryBvh(const std::string& text)
-        : path(testing::TempDir() + "osgskin_" + testName() + ".bvh") {
-        std::ofstream(path, std::ios::binary) << text;
-    }
-    ~TemporaryBvh() { std::filesystem::remove(path); }
-    TemporaryBvh(const TemporaryBvh&) = delete;
-    TemporaryBvh& operator=(const TemporaryBvh&) = delete;
-
-    std::string path;
-
-private:
-    static std::string testName() {
-        std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::replace(name.begin(), name.end(), '/', '_');
-        return name;
-    }
-};
+std::string saveBvh(const std::string& text) {
+    return test::saveText("dialect.bvh", text);
+}
 
 struct Dialect {
     const char* name;
@@ -113,12 +94,12 @@ const Dialect kSame[] = {
      [](const std::string& t) { return replaced(t, " 40 50 60", " +40 50. +60.0"); }},
 };
 
-class SameMotion : public testing::TestWithParam<Dialect> {};
+class BvhVariant : public testing::TestWithParam<Dialect> {};
 
-TEST_P(SameMotion, IsRead) {
+TEST_P(BvhVariant, ReadsTheSameMotion) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
-    const TemporaryBvh file(GetParam().write(plainText()));
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const std::string path = saveBvh(GetParam().write(plainText()));
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     ASSERT_EQ(motion.skeleton.joints.size(), plain.skeleton.joints.size());
     for (std::size_t j = 0; j < plain.skeleton.joints.size(); ++j) {
         EXPECT_EQ(motion.skeleton.joints[j].name, plain.skeleton.joints[j].name);
@@ -130,7 +111,7 @@ TEST_P(SameMotion, IsRead) {
     EXPECT_EQ(motion.rootPositions, plain.rootPositions);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dialects, SameMotion, testing::ValuesIn(kSame),
+INSTANTIATE_TEST_SUITE_P(Dialects, BvhVariant, testing::ValuesIn(kSame),
                          [](const auto& dialect) { return std::string(dialect.param.name); });
 
 struct Refused {
@@ -159,9 +140,9 @@ const Refused kRefused[] = {
     {"Hexadecimal", " 40 50 60", " 0x40 50 60", "line 20: frame 1, joint \"Spine\" has \"0x40\""},
     {"FourRotations", "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation",
      "CHANNELS 6 Xposition Yposition Zrotation Yrotation Xrotation Zrotation",
-     "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
+     "line 5: joint \"Hips\" has unsupported CHANNELS"},
     {"PositionTwice", "Xposition Yposition Zposition", "Xposition Xposition Zposition",
-     "line 5: joint \"Hips\" has CHANNELS of another kind than supported"},
+     "line 5: joint \"Hips\" has unsupported CHANNELS"},
     {"SevenChannels", "CHANNELS 6", "CHANNELS 7", "line 5: joint \"Hips\"'s number of CHANNELS"},
     {"ChannelsTwice", "    CHANNELS 3 Xrotation Yrotation Zrotation\n",
      "    CHANNELS 1 Xrotation\n    CHANNELS 2 Yrotation Zrotation\n",
@@ -170,28 +151,27 @@ const Refused kRefused[] = {
     {"JointsAfterAnEndSite", "End Site", "EndSite", "line 10: found \"EndSite\" in joint"},
 };
 
-class OtherMotion : public testing::TestWithParam<Refused> {};
+class BrokenBvh : public testing::TestWithParam<Refused> {};
 
-TEST_P(OtherMotion, IsRefusedWithTheLine) {
-    const TemporaryBvh file(replaced(plainText(), GetParam().from, GetParam().to));
-    expectError([&] { osgSkin::importMotion(file.path); }, file.path + ": " + GetParam().message);
-    expectError([&] { osgSkin::importSkeleton(file.path); }, file.path + ": " + GetParam().message);
+TEST_P(BrokenBvh, ErrorNamesTheLine) {
+    const std::string path = saveBvh(replaced(plainText(), GetParam().from, GetParam().to));
+    expectError([&] { osgSkin::importMotion(path); }, path + ": " + GetParam().message);
+    expectError([&] { osgSkin::importSkeleton(path); }, path + ": " + GetParam().message);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dialects, OtherMotion, testing::ValuesIn(kRefused),
+INSTANTIATE_TEST_SUITE_P(Dialects, BrokenBvh, testing::ValuesIn(kRefused),
                          [](const auto& refused) { return std::string(refused.param.name); });
 
-TEST(BvhDialect, ARestPoseNeedsNoTime) {
+TEST(BvhDialect, AllowsZeroFrameTimeForOneFrame) {
     std::string text = replaced(plainText(), "Time: 0.025", "Time: 0");
-    expectError([&] { osgSkin::importMotion(TemporaryBvh(text).path); },
-                "the frame time is 0.000000");
+    expectError([&] { osgSkin::importMotion(saveBvh(text)); }, "the frame time is 0.000000");
     text = replaced(text, "Frames: 2", "Frames: 1");
-    const TemporaryBvh file(text);
-    EXPECT_EQ(osgSkin::importSkeleton(file.path).joints.size(), 2u);
-    EXPECT_GT(osgSkin::importMotion(file.path).frameTime, 0.0);
+    const std::string path = saveBvh(text);
+    EXPECT_EQ(osgSkin::importSkeleton(path).joints.size(), 2u);
+    EXPECT_GT(osgSkin::importMotion(path).frameTime, 0.0);
 }
 
-TEST(BvhDialect, ARootMayMoveAndNotTurn) {
+TEST(BvhDialect, RootMayHavePositionsOnly) {
     std::string text = replaced(plainText(), " Zrotation Yrotation Xrotation", "");
     text = replaced(text, "CHANNELS 6", "CHANNELS 3");
     std::istringstream in(text);
@@ -207,8 +187,8 @@ TEST(BvhDialect, ARootMayMoveAndNotTurn) {
         kept += line + "\n";
     }
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
-    const TemporaryBvh file(kept);
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const std::string path = saveBvh(kept);
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     EXPECT_EQ(motion.rootPositions, plain.rootPositions);
     for (std::size_t f = 0; f < motion.frames; ++f) {
         EXPECT_EQ(motion.rotation(f, 0), glm::dquat(1, 0, 0, 0));
@@ -217,12 +197,13 @@ TEST(BvhDialect, ARootMayMoveAndNotTurn) {
 }
 
 /// Props and cameras rotate about one axis; some figures only rise and sink.
-TEST(BvhDialect, ARootMayMoveAndTurnInPart) {
+TEST(BvhDialect, RootMayHaveSomeChannels) {
     const auto motionOf = [](const std::string& channels, const std::string& numbers) {
-        const TemporaryBvh file("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
-                                "\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\n" +
-                                "Frame Time: 0.1\n" + numbers + "\n");
-        return osgSkin::importMotion(file.path);
+        const std::string path =
+            saveBvh("HIERARCHY\nROOT base\n{\nOFFSET 7 8 9\nCHANNELS " + channels +
+                    "\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\n" + "Frame Time: 0.1\n" +
+                    numbers + "\n");
+        return osgSkin::importMotion(path);
     };
     const osgSkin::Motion turns = motionOf("4 Xposition Yposition Zposition Yrotation", "1 2 3 90");
     EXPECT_EQ(turns.rootPositions[0], glm::dvec3(1, 2, 3));
@@ -233,9 +214,10 @@ TEST(BvhDialect, ARootMayMoveAndTurnInPart) {
 }
 
 TEST(BvhDialect, NamesMayHaveBlanks) {
-    const TemporaryBvh file(replaced(replaced(plainText(), "JOINT Spine", "JOINT Bip01  L Thigh "),
-                                     "ROOT Hips\n{", "ROOT Bip01 Pelvis {"));
-    const osgSkin::RestSkeleton skeleton = osgSkin::importSkeleton(file.path);
+    const std::string path =
+        saveBvh(replaced(replaced(plainText(), "JOINT Spine", "JOINT Bip01  L Thigh "),
+                         "ROOT Hips\n{", "ROOT Bip01 Pelvis {"));
+    const osgSkin::RestSkeleton skeleton = osgSkin::importSkeleton(path);
     ASSERT_EQ(skeleton.joints.size(), 2u);
     EXPECT_EQ(skeleton.joints[0].name, "Bip01 Pelvis");
     EXPECT_EQ(skeleton.joints[1].name, "Bip01  L Thigh");
@@ -243,47 +225,47 @@ TEST(BvhDialect, NamesMayHaveBlanks) {
 
 TEST(BvhDialect, LongNamesAreKept) {
     const std::string name(5000, 'n');
-    const TemporaryBvh file(replaced(plainText(), "Spine", name));
-    EXPECT_EQ(osgSkin::importSkeleton(file.path).find(name), 1);
+    const std::string path = saveBvh(replaced(plainText(), "Spine", name));
+    EXPECT_EQ(osgSkin::importSkeleton(path).find(name), 1);
 }
 
 TEST(BvhDialect, SmallNumbersHaveExponents) {
-    const TemporaryBvh file(replaced(plainText(), "1 11 2", "1e-05 -2.5E-3 1e-400"));
-    EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
+    const std::string path = saveBvh(replaced(plainText(), "1 11 2", "1e-05 -2.5E-3 1e-400"));
+    EXPECT_EQ(osgSkin::importMotion(path).rootPositions[1], glm::dvec3(1e-5, -2.5e-3, 0.0));
 }
 
-TEST(BvhDialect, FramesThatTakeSecondsAreToldOf) {
+TEST(BvhDialect, WarnsAboutFrameTimesInMilliseconds) {
     for (const auto& [time, isTold] : {std::pair("33.3333", true), std::pair("0.5", false)}) {
         std::string text = plainText();
         const std::size_t at = text.find("Frame Time:") + 11;
         text.replace(at, text.find('\n', at) - at, std::string(" ") + time);
-        const TemporaryBvh file(text);
+        const std::string path = saveBvh(text);
         const test::Notices notices;
-        osgSkin::importMotion(file.path);
+        osgSkin::importMotion(path);
         EXPECT_EQ(notices.say("a frame takes 33.333300 seconds"), isTold) << notices.text();
     }
 }
 
 /// QAvimator, an editor for Second Life, appends the numbers of its key frames.
-TEST(BvhDialect, LinesAfterTheFramesAreSkipped) {
-    const TemporaryBvh file(plainText() + "2 0 1\n8 0 1 29 59 60\n");
+TEST(BvhDialect, WarnsAboutExtraFrames) {
+    const std::string path = saveBvh(plainText() + "2 0 1\n8 0 1 29 59 60\n");
     const test::Notices notices;
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
     EXPECT_EQ(motion.frames, 2u);
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(1, 11, 2));
-    EXPECT_TRUE(notices.say("line 21: 2 line(s) beyond the declared 2 frames, skipped"))
+    EXPECT_TRUE(notices.say("line 21: 2 line(s) beyond the declared 2 frames ignored"))
         << notices.text();
 }
 
 TEST(BvhDialect, PositionsMayComeInAnyOrder) {
-    const TemporaryBvh file(
+    const std::string path = saveBvh(
         replaced(plainText(), "Xposition Yposition Zposition", "Zposition Xposition Yposition"));
-    EXPECT_EQ(osgSkin::importMotion(file.path).rootPositions[1], glm::dvec3(11, 2, 1));
+    EXPECT_EQ(osgSkin::importMotion(path).rootPositions[1], glm::dvec3(11, 2, 1));
 }
 
 /// Exporters that write positions for every joint mean its offset, or a stretch that no skin
 /// follows.
-TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
+TEST(BvhDialect, UsesPositionsOfTheRootOnly) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     const std::string more = "CHANNELS 6 Xposition Yposition Zposition Xrotation";
     std::string text = replaced(plainText(), "CHANNELS 3 Xrotation", more);
@@ -292,10 +274,10 @@ TEST(BvhDialect, PositionsOfOtherJointsAreReadAndOnlyTheRootsAreUsed) {
         replaced(text, "  JOINT Spine", "  JOINT Leg\n  {\n    OFFSET 0 -5 0\n  }\n  JOINT Spine");
     text = replaced(text, "0 10 0 0 0 0 0 0 0", "0 10 0 0 0 0 0 5 1 0 0 0");
     text = replaced(text, "10 20 30 40", "10 20 30 7 7 7 40");
-    const TemporaryBvh file(text);
+    const std::string path = saveBvh(text);
     const test::Notices notices;
-    const osgSkin::Motion motion = osgSkin::importMotion(file.path);
-    EXPECT_TRUE(notices.say("joint \"Spine\" moves from its place; only moves of \"Hips\""))
+    const osgSkin::Motion motion = osgSkin::importMotion(path);
+    EXPECT_TRUE(notices.say("joint \"Spine\" is translated; only translations of \"Hips\""))
         << notices.text();
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
     ASSERT_EQ(motion.skeleton.joints.size(), 3u);
@@ -337,7 +319,7 @@ TEST(BvhDialect, RotationsAreExact) {
 
 class BadBvh : public testing::TestWithParam<BadFile> {};
 
-TEST_P(BadBvh, IsRefusedWithFileAndPlace) {
+TEST_P(BadBvh, ErrorNamesFileAndLine) {
     const std::string path = testData(std::string("bvh/") + GetParam().file);
     ASSERT_TRUE(std::filesystem::exists(path));
     expectError([&] { osgSkin::importMotion(path); }, path + ": " + GetParam().message);
@@ -350,7 +332,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"no_root.bvh", "line 2: found \"MOTION\", expected a ROOT"},
         BadFile{"second_root.bvh", "line 16: found \"ROOT\", expected \"MOTION\""},
         BadFile{"truncated_hierarchy.bvh", "line 10: found the end of the file in joint \"Spine\""},
-        BadFile{"duplicate_joint.bvh", "line 6: second joint called \"Hips\""},
+        BadFile{"duplicate_joint.bvh", "line 6: a second joint called \"Hips\""},
         BadFile{"missing_offset.bvh", "line 13: joint \"Spine\" has no OFFSET"},
         BadFile{"second_offset.bvh", "line 9: joint \"Spine\" has OFFSET twice"},
         BadFile{"infinite_offset.bvh", "line 8: joint \"Spine\"'s OFFSET y is \"inf\""},
@@ -378,27 +360,24 @@ TEST(MotionErrors, MissingFileNamesTheReason) {
     expectError([&] { osgSkin::importSkeleton(path); }, path + ": cannot open: No such file");
 }
 
-TEST(MotionErrors, DirectoryIsNoFile) {
+TEST(MotionErrors, RejectsDirectory) {
     expectError([] { osgSkin::importMotion(testData("bvh")); }, "cannot open: it is a directory");
 }
 
-TEST(MotionErrors, SkippingEverySampleIsRefused) {
+TEST(MotionErrors, RejectsSkippingAllFrames) {
     const std::string path = testData("bvh/two_joints.bvh");
     EXPECT_EQ(osgSkin::importMotion(path, 1).frames, 1u);
     expectError([&] { osgSkin::importMotion(path, 2); }, path + ": 2 frame(s), expected more than");
 }
 
-TEST(MotionErrors, DeepNestingIsRefusedAndDoesNotCrash) {
-    const std::string path = testing::TempDir() + "osgskin_deep.bvh";
-    std::ofstream file(path);
-    file << "HIERARCHY\nROOT j\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
-    for (int i = 0; i < 100000; ++i) file << "JOINT j" << i << "\n{\nOFFSET 0 1 0\n";
-    file.close();
+TEST(MotionErrors, RejectsDeepNesting) {
+    std::string text = "HIERARCHY\nROOT j\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+    for (int i = 0; i < 100000; ++i) text += "JOINT j" + std::to_string(i) + "\n{\nOFFSET 0 1 0\n";
+    const std::string path = saveBvh(text);
     expectError([&] { osgSkin::importSkeleton(path); }, "is nested more than 1000 deep");
-    std::filesystem::remove(path);
 }
 
-TEST(MotionErrors, OtherFormatsFailWithTheFile) {
+TEST(MotionErrors, RejectsMeshFormats) {
     const std::string path = testData("mesh/square.ply");
     expectError([&] { osgSkin::importSkeleton(path); },
                 path + ": files of this format have no skeleton");
@@ -406,13 +385,7 @@ TEST(MotionErrors, OtherFormatsFailWithTheFile) {
                 path + ": files of this format have no animation");
 }
 
-const glm::dvec3 kX(1, 0, 0);
-const glm::dvec3 kY(0, 1, 0);
-const glm::dvec3 kZ(0, 0, 1);
-
-glm::dquat turn(double degrees, const glm::dvec3& axis) {
-    return glm::angleAxis(glm::radians(degrees), axis);
-}
+const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
 double difference(const glm::dquat& a, const glm::dquat& b) {
     return glm::length(a * glm::conjugate(b) * glm::dvec3(1, 2, 3) - glm::dvec3(1, 2, 3)) +
@@ -426,9 +399,15 @@ TEST(ImportMotion, ReadsTheDeclaredChannelOrderOfEachJoint) {
     EXPECT_EQ(motion.name, "two_joints");
     EXPECT_EQ(motion.frameTime, 0.025);
     EXPECT_LT(difference(motion.rotation(0, 0), {1, 0, 0, 0}), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(10, kZ) * turn(20, kY) * turn(30, kX)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 1), turn(40, kX) * turn(50, kY) * turn(60, kZ)), 1e-12);
-    EXPECT_GT(difference(motion.rotation(1, 1), turn(60, kZ) * turn(50, kY) * turn(40, kX)), 0.1);
+    EXPECT_LT(difference(motion.rotation(1, 0),
+                         turnDegrees(10, kZ) * turnDegrees(20, kY) * turnDegrees(30, kX)),
+              1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 1),
+                         turnDegrees(40, kX) * turnDegrees(50, kY) * turnDegrees(60, kZ)),
+              1e-12);
+    EXPECT_GT(difference(motion.rotation(1, 1),
+                         turnDegrees(60, kZ) * turnDegrees(50, kY) * turnDegrees(40, kX)),
+              0.1);
 }
 
 TEST(ImportMotion, PositionChannelsReplaceTheRootsOffset) {
@@ -443,12 +422,14 @@ TEST(ImportMotion, RootWithoutPositionChannelsStaysAtItsOffset) {
     ASSERT_EQ(motion.frames, 1u);
     EXPECT_EQ(motion.frameTime, 0.5);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
-    EXPECT_LT(difference(motion.rotation(0, 0), turn(10, kY) * turn(20, kX) * turn(30, kZ)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(0, 0),
+                         turnDegrees(10, kY) * turnDegrees(20, kX) * turnDegrees(30, kZ)),
+              1e-12);
 }
 
 /// If the hips move relative to a root on the ground, the path is that of the hips: rotated by the
 /// root, from its position.
-TEST(ImportMotion, BeginsWithTheJointThatMoves) {
+TEST(ImportMotion, RootIsTheFirstMovingJoint) {
     const test::Notices notices;
     const osgSkin::Motion motion = osgSkin::importMotion(testData("root_on_ground.bvh"));
     EXPECT_EQ(notices.text(), ""); // the root's own movement is used as well
@@ -460,11 +441,11 @@ TEST(ImportMotion, BeginsWithTheJointThatMoves) {
     ASSERT_EQ(motion.rotations.size(), 6u);
     EXPECT_LT(glm::distance(motion.rootPositions[0], glm::dvec3(0, 10, 0)), 1e-12);
     EXPECT_LT(glm::distance(motion.rootPositions[1], glm::dvec3(5 + 3, 11, 0)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, kY)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turnDegrees(90, kY)), 1e-12);
     EXPECT_LT(difference(motion.rotation(1, 1), {1, 0, 0, 0}), 1e-12);
 }
 
-TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
+TEST(ImportMotion, ReadsAllLineEndsAndWrappedFrames) {
     const osgSkin::Motion plain = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     for (const char* name : {"bvh/two_joints_crlf.bvh", "bvh/wrapped_rows.bvh"}) {
         const osgSkin::Motion other = osgSkin::importMotion(testData(name));
@@ -473,7 +454,7 @@ TEST(ImportMotion, LineEndsAndWrappedFramesDoNotMatter) {
     }
 }
 
-TEST(ImportMotion, SkipsSamples) {
+TEST(ImportMotion, SkipsFrames) {
     const osgSkin::Motion all = osgSkin::importMotion(testData("bvh/two_joints.bvh"));
     const osgSkin::Motion last = osgSkin::importMotion(testData("bvh/two_joints.bvh"), 1);
     ASSERT_EQ(last.frames, 1u);
@@ -494,7 +475,7 @@ TEST(ImportSkeleton, HasCentresParentsAndTips) {
     EXPECT_EQ(*skeleton.joints[1].tip, glm::dvec3(0, 19, 1));
 }
 
-TEST(ImportSkeleton, NeedsNoFrame) {
+TEST(ImportSkeleton, ReadsFileWithoutFrames) {
     EXPECT_EQ(osgSkin::importSkeleton(testData("bvh/no_frames.bvh")).joints.size(), 2u);
 }
 
@@ -510,13 +491,13 @@ TEST(ImportSkeleton, ReadsAMakeHumanRig) {
     EXPECT_NEAR(rig.joints[static_cast<std::size_t>(head)].tip->y, 8.4044, 1e-4);
 }
 
-TEST(ImportMotion, PassesOverFramesBeyondTheDeclared) {
+TEST(ImportMotion, IgnoresExtraFrames) {
     const osgSkin::Motion motion = osgSkin::importMotion(testData("bvh/more_rows.bvh"));
     EXPECT_EQ(motion.frames, 2u);
 }
 
 /// A motion made in code, from GLM's types and from OSG's.
-TEST(Motion, IsMadeOfSamples) {
+TEST(Motion, AddFrameTakesGlmAndOsgTypes) {
     osgSkin::RestSkeleton skeleton;
     EXPECT_EQ(skeleton.add("Hips", -1, glm::dvec3(0, 1, 0)), 0);
     EXPECT_EQ(skeleton.add("Spine", 0, osg::Vec3d(0, 2, 0.5)), 1);
@@ -529,10 +510,10 @@ TEST(Motion, IsMadeOfSamples) {
     motion.skeleton = skeleton;
     const osg::Quat bow(osg::PI_2, osg::X_AXIS);
     motion.addFrame(osg::Vec3d(1, 2, 3), {osg::Quat(), bow});
-    motion.addFrame(glm::dvec3(4, 5, 6), {turn(90, kX), glm::dquat(1, 0, 0, 0)});
+    motion.addFrame(glm::dvec3(4, 5, 6), {turnDegrees(90, kX), glm::dquat(1, 0, 0, 0)});
     ASSERT_EQ(motion.frames, 2u);
-    EXPECT_LT(difference(motion.rotation(0, 1), turn(90, kX)), 1e-12);
-    EXPECT_LT(difference(motion.rotation(1, 0), turn(90, kX)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(0, 1), turnDegrees(90, kX)), 1e-12);
+    EXPECT_LT(difference(motion.rotation(1, 0), turnDegrees(90, kX)), 1e-12);
     EXPECT_EQ(motion.rootPositions[0], glm::dvec3(1, 2, 3));
     EXPECT_EQ(motion.rootPositions[1], glm::dvec3(4, 5, 6));
 

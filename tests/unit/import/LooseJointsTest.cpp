@@ -147,7 +147,7 @@ const std::vector<double> kTimes{0.0, 1.0};
 
 } // namespace
 
-TEST(LooseJoints, FeetOfControlsFollowTheShins) {
+TEST(LooseJoints, FeetBelowControlsFollowShins) {
     for (const std::vector<std::string>& controls :
          {std::vector<std::string>{"foot_IK"}, {"ctrl_master", "ctrl_ankle"}}) {
         const ImportedRig rig = importRig(Figure(controls).save("ik_feet.gltf"));
@@ -167,7 +167,7 @@ TEST(LooseJoints, AreReportedOnce) {
     EXPECT_TRUE(notices.say("\"Foot.L\" follows \"LowerLeg.L\"")) << notices.text();
 }
 
-TEST(LooseJoints, FeetBelowTheShinsStayThere) {
+TEST(LooseJoints, KeepsFeetBelowShins) {
     const std::string file = Figure(std::vector<std::string>()).save("feet_below.gltf");
     test::Notices notices;
     EXPECT_EQ(parentOf(importRig(file).rest, "Foot.L"), "LowerLeg.L");
@@ -176,7 +176,7 @@ TEST(LooseJoints, FeetBelowTheShinsStayThere) {
 
 /// The clip lowers the hips and bends the knee, while the foot's control stays on the floor, or
 /// moves by itself.
-TEST(LooseJoints, ClipsThatMoveTheFootPlayAsTheyAre) {
+TEST(LooseJoints, KeepsFootMotionOfClips) {
     for (const double lift : {0.0, 0.2}) {
         Figure figure({"foot_IK"});
         figure.animate("squat", figure.nodes["Hips"], "translation", kTimes,
@@ -197,7 +197,7 @@ TEST(LooseJoints, ClipsThatMoveTheFootPlayAsTheyAre) {
     }
 }
 
-TEST(LooseJoints, ClipsWithoutTheFootCarryIt) {
+TEST(LooseJoints, FootFollowsInClipsWithoutIt) {
     Figure figure({"foot_IK"});
     figure.animate("kick", figure.nodes["LowerLeg.L"], "rotation", kTimes,
                    test::GltfColumn::turns({0, 90}));
@@ -207,7 +207,7 @@ TEST(LooseJoints, ClipsWithoutTheFootCarryIt) {
     EXPECT_NEAR((player.at("Foot.L", 0.5) - knee).length(), 0.42, 1e-6);
 }
 
-TEST(LooseJoints, MotionsOfSuchFilesBendTheFootWithTheShin) {
+TEST(LooseJoints, MotionsBendTheFootWithTheShin) {
     Figure figure({"foot_IK"});
     figure.animate("kick", figure.nodes["LowerLeg.L"], "rotation", kTimes,
                    test::GltfColumn::turns({0, 90}));
@@ -215,7 +215,7 @@ TEST(LooseJoints, MotionsOfSuchFilesBendTheFootWithTheShin) {
     EXPECT_EQ(parentOf(motion.skeleton, "Foot.L"), "LowerLeg.L");
 }
 
-TEST(LooseJoints, CopiesOfMmdFollowTheirOriginals) {
+TEST(LooseJoints, MmdCopiesFollowOriginals) {
     Figure figure({}, true);
     figure.animate("kick", figure.nodes["LowerLeg.L"], "rotation", kTimes,
                    test::GltfColumn::turns({0, 90}));
@@ -226,7 +226,7 @@ TEST(LooseJoints, CopiesOfMmdFollowTheirOriginals) {
     EXPECT_LT((player.at("FootD.L", 0.7) - player.at("Foot.L", 0.7)).length(), 1e-6);
 }
 
-TEST(LooseJoints, CopiesWithMotionOfTheirOwnKeepIt) {
+TEST(LooseJoints, KeepsOwnMotionOfCopies) {
     Figure figure({}, true);
     figure.animate("kick", figure.nodes["LowerLegD.L"], "rotation", kTimes,
                    test::GltfColumn::turns({0, 90}));

@@ -2,7 +2,10 @@
 // Normal, occlusion and emission maps: tangents, texture units, and what is left out.
 #include "ColouredMap.h"
 #include "GltfBuilder.h"
+#include "MeshParts.h"
 #include "Notices.h"
+#include "Paths.h"
+#include "TextFile.h"
 
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadScene>
@@ -123,20 +126,19 @@ const Attribute* attributeOf(const ImportedMesh& mesh, osg::StateAttribute::Type
 }
 
 bool hasTexture(const ImportedMesh& mesh, unsigned unit) {
-    return mesh.parts.at(0).geometry->getStateSet()->getTextureAttribute(
-               unit, osg::StateAttribute::TEXTURE) != nullptr;
+    return imageOf(mesh.parts.at(0), unit) != nullptr;
 }
 
 } // namespace
 
-TEST(Maps, TangentsAreThoseOfTheTextureCoordinates) {
+TEST(Maps, ComputesTangentsFromTextureCoordinates) {
     EXPECT_EQ(expectAround(HalfTube(along).read(), 1.0f, 1.0f), 26u);
     EXPECT_EQ(expectAround(HalfTube(against).read(), -1.0f, -1.0f), 26u);
     // Only vertices between both halves are duplicated.
     EXPECT_EQ(expectAround(HalfTube(mirrored).read(), 1.0f, -1.0f), 28u);
 }
 
-TEST(Maps, TangentsOfTheFileAreTaken) {
+TEST(Maps, UsesTangentsOfTheFile) {
     for (const bool isMirrored : {false, true}) {
         HalfTube tube(against);
         // Of coordinates that grow with the angle; not those of the texture.
@@ -155,7 +157,7 @@ TEST(Maps, TangentsOfTheFileAreTaken) {
     for (const osg::Vec4& t : *tangentsOf(mesh)) EXPECT_LT(t.x(), 1e-6f);
 }
 
-TEST(Maps, TangentsThatCannotBeUsedAreComputed) {
+TEST(Maps, RecomputesInvalidTangents) {
     for (const double wrong : {0.0, std::nan("")}) {
         HalfTube tube(along);
         std::vector<double> tangents = tube.tangents;
@@ -166,8 +168,7 @@ TEST(Maps, TangentsThatCannotBeUsedAreComputed) {
     // Texture coordinates that are all the same give no direction.
     const ImportedMesh mesh = HalfTube([](double) { return 0.5; }).read();
     ASSERT_NE(tangentsOf(mesh), nullptr);
-    const auto& normals =
-        dynamic_cast<const osg::Vec3Array&>(*mesh.parts[0].geometry->getNormalArray());
+    const auto& normals = normalsOf(mesh);
     for (std::size_t v = 0; v < normals.size(); ++v) {
         const osg::Vec4& t = tangentsOf(mesh)->at(v);
         const osg::Vec3 direction(t.x(), t.y(), t.z());
@@ -176,7 +177,7 @@ TEST(Maps, TangentsThatCannotBeUsedAreComputed) {
     }
 }
 
-TEST(Maps, MaterialsWithoutThemStayOnTheFixedPipeline) {
+TEST(Maps, MaterialsWithoutMapsUseTheFixedPipeline) {
     HalfTube tube(mirrored);
     tube.attributes()["TANGENT"] = tube.accessor("VEC4", tube.tangents);
     tube.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
@@ -189,7 +190,7 @@ TEST(Maps, MaterialsWithoutThemStayOnTheFixedPipeline) {
     EXPECT_EQ(notices.text(), "");
 }
 
-TEST(Maps, EachHasItsUnit) {
+TEST(Maps, EachHasItsTextureUnit) {
     HalfTube tube(along);
     const json texture = {{"index", 0}};
     tube.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", texture}}},
@@ -217,13 +218,11 @@ TEST(Maps, EachHasItsUnit) {
     osg::Vec3 glow;
     state.getUniform("osgSkinEmission")->get(glow);
     EXPECT_LT((glow - osg::Vec3(1, 0, 0)).length(), 1e-6f);
-    EXPECT_EQ(attributeOf<osg::Material>(mesh, osg::StateAttribute::MATERIAL)
-                  ->getEmission(osg::Material::FRONT),
-              osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emissionOf(mesh), osg::Vec4(0, 0, 0, 1));
     EXPECT_EQ(notices.text(), "");
 }
 
-TEST(Maps, WhatIsLeftOutIsReportedOnce) {
+TEST(Maps, ReportsUnusedTexturesOnce) {
     HalfTube tube(along);
     const json texture = {{"index", 0}}, other = {{"index", 0}, {"texCoord", 1}};
     const json rough = {{"baseColorTexture", texture}, {"metallicRoughnessTexture", texture}};
@@ -248,12 +247,10 @@ TEST(Maps, WhatIsLeftOutIsReportedOnce) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
     for (unsigned unit = 0; unit < 4; ++unit) EXPECT_EQ(hasTexture(mesh, unit), unit < 2) << unit;
     // Without its texture, the colour would make the whole surface glow.
-    EXPECT_EQ(attributeOf<osg::Material>(mesh, osg::StateAttribute::MATERIAL)
-                  ->getEmission(osg::Material::FRONT),
-              osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emissionOf(mesh), osg::Vec4(0, 0, 0, 1));
 }
 
-TEST(Maps, AnEmissionTextureThatCannotBeReadDoesNotGlow) {
+TEST(Maps, MissingEmissionTextureDoesNotGlow) {
     HalfTube tube(along);
     tube.json["images"].push_back({{"uri", "missing.png"}});
     tube.json["textures"].push_back({{"source", 1}});
@@ -261,13 +258,11 @@ TEST(Maps, AnEmissionTextureThatCannotBeReadDoesNotGlow) {
     const test::Notices notices;
     const ImportedMesh mesh = tube.read();
     EXPECT_TRUE(notices.say("missing.png\" cannot be read; drawn without")) << notices.text();
-    EXPECT_EQ(attributeOf<osg::Material>(mesh, osg::StateAttribute::MATERIAL)
-                  ->getEmission(osg::Material::FRONT),
-              osg::Vec4(0, 0, 0, 1));
+    EXPECT_EQ(emissionOf(mesh), osg::Vec4(0, 0, 0, 1));
     EXPECT_EQ(attributeOf<osg::Program>(mesh, osg::StateAttribute::PROGRAM), nullptr);
 }
 
-TEST(Maps, OfObjFilesAreDrawn) {
+TEST(Maps, ReadsObjMaps) {
     const std::string folder = testing::TempDir(), path = folder + named(".obj");
     const std::string map = named(".bmp");
     test::writeMap(map, {});
@@ -286,40 +281,13 @@ TEST(Maps, OfObjFilesAreDrawn) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
-TEST(Maps, OfAssimpsFormatsAreDrawn) {
+TEST(Maps, ReadsColladaMaps) {
     const std::string map = named(".bmp");
     test::writeMap(map, {});
-    const std::string texture = R"(<texture texture="sampler" texcoord="uv"/>)";
-    const std::string path = testing::TempDir() + named(".dae");
-    std::ofstream(path) << R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<library_images><image id="map"><init_from>)"
-                        << map << R"(</init_from></image></library_images>
-<library_effects><effect id="effect"><profile_COMMON>
-<newparam sid="surface"><surface type="2D"><init_from>map</init_from></surface></newparam>
-<newparam sid="sampler"><sampler2D><source>surface</source></sampler2D></newparam>
-<technique sid="common"><phong><diffuse>)"
-                        << texture << "</diffuse><specular>" << texture << R"(</specular></phong>
-<extra><technique profile="FCOLLADA"><bump>)"
-                        << texture << R"(</bump></technique></extra></technique>
-</profile_COMMON></effect></library_effects>
-<library_materials><material id="material"><instance_effect url="#effect"/></material></library_materials>
-<library_geometries><geometry id="triangle"><mesh>
-<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
-<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<source id="t"><float_array id="ta" count="6">0 0 0 1 1 0</float_array><technique_common>
-<accessor source="#ta" count="3" stride="2"><param name="S" type="float"/>
-<param name="T" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>
-<input semantic="TEXCOORD" source="#t" offset="1" set="0"/><p>0 0 1 1 2 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="scene"><node><instance_geometry url="#triangle">
-<bind_material><technique_common><instance_material symbol="m" target="#material">
-<bind_vertex_input semantic="uv" input_semantic="TEXCOORD" input_set="0"/></instance_material>
-</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#scene"/></scene></COLLADA>)";
+    std::string text = test::fileText(testData("mesh/maps.dae"));
+    const std::string name = "IMAGE_FILE";
+    text.replace(text.find(name), name.size(), map);
+    const std::string path = test::saveText(named(".dae"), text);
     const test::Notices notices;
     const ImportedMesh mesh = osgSkin::importMesh(path);
     for (unsigned unit = 0; unit < 4; ++unit) EXPECT_EQ(hasTexture(mesh, unit), unit < 2) << unit;
@@ -331,7 +299,7 @@ TEST(Maps, OfAssimpsFormatsAreDrawn) {
 }
 
 /// Tangents of saved scenes are not read as a mesh; they are computed.
-TEST(Maps, OfSavedScenesHaveTangentsAgain) {
+TEST(Maps, RecomputesTangentsOfSavedScenes) {
     const ImportedMesh mesh = HalfTube(along).read();
     for (const char* ending : {".osgt", ".osgb", ".osgx"}) {
         const std::string path = testing::TempDir() + named(ending);

@@ -4,6 +4,7 @@
 #include "ExpectError.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "Paths.h"
 
 #include <osgSkin/UpdateMorphs>
 #include <osgSkinImport/ImportMesh>
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -138,7 +138,7 @@ float weightAt(const FloatKeys& keys, double time) {
 
 } // namespace
 
-TEST(GltfMorphs, TargetsMoveTheVerticesThatTheFileSays) {
+TEST(GltfMorphs, ReadsOffsets) {
     Face face;
     const ImportedMesh mesh = osgSkin::importMesh(face.save("face.gltf"));
     EXPECT_EQ(namesOf(mesh), (std::vector<std::string>{"wide", "tall"}));
@@ -147,7 +147,7 @@ TEST(GltfMorphs, TargetsMoveTheVerticesThatTheFileSays) {
     EXPECT_EQ(initialOf(mesh, "wide"), 0.0f);
 }
 
-TEST(GltfMorphs, DefaultWeightsAreInTheRestVertices) {
+TEST(GltfMorphs, AppliesDefaultWeights) {
     Face face;
     face.json["meshes"][0]["weights"] = {0.25, 0.0};
     const ImportedMesh mesh = osgSkin::importMesh(face.save("default.gltf"));
@@ -162,7 +162,7 @@ TEST(GltfMorphs, DefaultWeightsAreInTheRestVertices) {
 }
 
 /// Sparse accessors list the vertices that move.
-TEST(GltfMorphs, SparseTargetsMoveTheirVertices) {
+TEST(GltfMorphs, ReadsSparseTargets) {
     for (const bool isOrdered : {true, false}) {
         GltfColumn column;
         const std::vector<double> places =
@@ -186,14 +186,14 @@ TEST(GltfMorphs, SparseTargetsMoveTheirVertices) {
     }
 }
 
-TEST(GltfMorphs, QuantisedTargetsAreNormalised) {
+TEST(GltfMorphs, ReadsQuantisedTargets) {
     GltfColumn column;
     primitiveOf(column)["targets"] = json::array(
         {{{"POSITION", column.accessor("VEC3", moving(5, {0.0, 1.0, 0.0}), 5120, true)}}});
     expectMoved(osgSkin::importMesh(column.save("quantised.gltf")), "column-0", {{5, {0, 1, 0}}});
 }
 
-TEST(GltfMorphs, OffsetsOfRoundingMoveNothing) {
+TEST(GltfMorphs, IgnoresRoundingErrors) {
     GltfColumn column;
     std::vector<double> offsets(3 * kVertices, 1e-8);
     offsets[3 * 7] = 0.1;
@@ -205,7 +205,7 @@ TEST(GltfMorphs, OffsetsOfRoundingMoveNothing) {
 }
 
 /// A node that mirrors and scales its mesh, below a joint.
-TEST(GltfMorphs, OffsetsAreTransformedLikeTheVertices) {
+TEST(GltfMorphs, TransformsOffsets) {
     Face face;
     json& node = face.json["nodes"][face.meshNode];
     node.erase("skin");
@@ -234,7 +234,7 @@ TEST(GltfMorphs, OffsetsAreTransformedLikeTheVertices) {
 
 /// Two meshes of one skeleton, one of them bound in another pose: all vertices are brought to one
 /// pose, and their offsets are the difference between the file's shapes in it.
-TEST(GltfMorphs, OffsetsGoToTheCommonBindPose) {
+TEST(GltfMorphs, OffsetsAreInTheCommonBindPose) {
     Face face;
     face.json["meshes"].push_back(face.json["meshes"][0]);
     std::vector<double> matrices;
@@ -261,7 +261,7 @@ TEST(GltfMorphs, OffsetsGoToTheCommonBindPose) {
 }
 
 /// Exporters split meshes by material, and faces have teeth and lashes of their own.
-TEST(GltfMorphs, TargetsOfOneNameAreOne) {
+TEST(GltfMorphs, MergesTargetsOfOneName) {
     Face face;
     json teeth = face.json["meshes"][0];
     teeth["extras"]["targetNames"] = {"tall", "closed"};
@@ -274,7 +274,7 @@ TEST(GltfMorphs, TargetsOfOneNameAreOne) {
     EXPECT_EQ(notices.lines(), 0u) << notices.text();
 }
 
-TEST(GltfMorphs, TargetsThatBeginApartKeepApart) {
+TEST(GltfMorphs, KeepsTargetsWithDifferentInitialWeights) {
     Face face;
     json teeth = face.json["meshes"][0];
     teeth["weights"] = {0.5, 0.0};
@@ -285,7 +285,7 @@ TEST(GltfMorphs, TargetsThatBeginApartKeepApart) {
     EXPECT_EQ(initialOf(mesh, "wide"), 0.0f);
     EXPECT_EQ(initialOf(mesh, "wide.001"), 0.5f);
     EXPECT_EQ(offsetsOf(mesh, "tall").size(), 2u);
-    EXPECT_TRUE(notices.say("1 got a name of their own, as \"wide.001\"")) << notices.text();
+    EXPECT_TRUE(notices.say("1 were renamed, the first to \"wide.001\"")) << notices.text();
 }
 
 TEST(GltfMorphs, NamesMayBeMissingOrTheSame) {
@@ -302,7 +302,7 @@ TEST(GltfMorphs, NamesMayBeMissingOrTheSame) {
               (std::vector<std::string>{"a", "b"}));
 }
 
-TEST(GltfMorphs, OffsetsThatAreNotNumbersAreRefused) {
+TEST(GltfMorphs, RejectsInfiniteOffsets) {
     Face face;
     addTarget(face, "broken", 4, {0.0, HUGE_VAL, 0.0});
     const std::string path = face.save("broken.gltf");
@@ -310,7 +310,7 @@ TEST(GltfMorphs, OffsetsThatAreNotNumbersAreRefused) {
                 path + ": morph target \"broken\": its offset of vertex 4 is not finite");
 }
 
-TEST(VrmExpressions, AreFurtherTargets) {
+TEST(VrmExpressions, BecomeMorphTargets) {
     for (const bool isSecond : {true, false}) {
         Face face;
         addTarget(face, "happy", 8, {0.0, 0.0, 1.0});
@@ -342,13 +342,13 @@ TEST(VrmExpressions, AreFurtherTargets) {
         expectMoved(mesh, "happy", {{3, {0.25, 0.0, 0.0}}, {20, {0.0, 0.25, 0.125}}});
         expectMoved(mesh, "grin", {{3, {0.25, 0.0, 0.0}}});
         expectMoved(mesh, "happy.001", {{8, {0.0, 0.0, 1.0}}});
-        EXPECT_TRUE(notices.say("as \"happy.001\"")) << notices.text();
-        EXPECT_TRUE(notices.say("changes of colours and textures are left out, of 1 expressions"));
+        EXPECT_TRUE(notices.say("the first to \"happy.001\"")) << notices.text();
+        EXPECT_TRUE(notices.say("1 expressions change colours or textures"));
         EXPECT_EQ(notices.lines(), 2u) << notices.text();
     }
 }
 
-TEST(VrmExpressions, PartsThatAreNoTargetAreLeftOut) {
+TEST(VrmExpressions, IgnoresInvalidParts) {
     Face face;
     face.json["extensions"]["VRMC_vrm"]["expressions"]["preset"]["happy"]["morphTargetBinds"] = {
         {{"node", face.meshNode}, {"index", 2}, {"weight", 1.0}},
@@ -359,11 +359,11 @@ TEST(VrmExpressions, PartsThatAreNoTargetAreLeftOut) {
         {{"node", face.meshNode}, {"index", 1}, {"weight", 1.0}}};
     const test::Notices notices;
     const ImportedMesh mesh = osgSkin::importMesh(face.save("parts.vrm"));
-    EXPECT_TRUE(notices.say("5 parts of expressions are left out")) << notices.text();
+    EXPECT_TRUE(notices.say("5 parts of expressions name no morph target")) << notices.text();
     expectMoved(mesh, "happy", {{20, {0.0, 0.25, 0.125}}});
 }
 
-TEST(GltfMorphs, ClipsDriveTheirWeights) {
+TEST(GltfMorphs, ClipsAnimateWeights) {
     Face face;
     face.bend();
     face.animate("talk", face.meshNode, "weights", {0.0, 1.0}, {0.0, 0.5, 1.0, 0.5});
@@ -384,7 +384,7 @@ TEST(GltfMorphs, ClipsDriveTheirWeights) {
     EXPECT_EQ(talk.getDuration(), 1.0);
 }
 
-TEST(GltfMorphs, SplinesDriveTheirWeights) {
+TEST(GltfMorphs, SplinesAnimateWeights) {
     Face face;
     // In-tangents, values and out-tangents of both targets, key by key.
     face.animate("talk", face.meshNode, "weights", {0.0, 1.0},
@@ -397,7 +397,7 @@ TEST(GltfMorphs, SplinesDriveTheirWeights) {
     EXPECT_EQ(keysOf(*rig.animations[0], "tall"), (FloatKeys{{0.0, 1.0f}}));
 }
 
-TEST(GltfMorphs, TargetsThatNoClipMovesHaveNoChannels) {
+TEST(GltfMorphs, StaticTargetsHaveNoChannels) {
     Face face;
     face.bend();
     face.json["meshes"][0]["weights"] = {0.5, 0.0};
@@ -408,7 +408,7 @@ TEST(GltfMorphs, TargetsThatNoClipMovesHaveNoChannels) {
     EXPECT_TRUE(keysOf(*rig.animations[0], "tall").empty());
 }
 
-TEST(GltfMorphs, WeightsMustFitTheTargets) {
+TEST(GltfMorphs, RejectsWrongNumberOfWeights) {
     Face face;
     face.animate("talk", face.meshNode, "weights", {0.0, 1.0}, {0.0, 0.5, 1.0});
     const std::string path = face.save("short.gltf");
@@ -416,7 +416,7 @@ TEST(GltfMorphs, WeightsMustFitTheTargets) {
                 path + ": animation \"talk\": sampler 0: 2 keys and 3 values, expected 2 numbers");
 }
 
-TEST(GltfMorphs, OfDifferentWeightsInSeveralMeshesTheFirstCount) {
+TEST(GltfMorphs, FirstMeshWinsForDifferentWeights) {
     Face face;
     face.json["meshes"].push_back(face.json["meshes"][0]);
     const std::size_t teeth = face.node({{"mesh", 1}, {"skin", 0}});
@@ -430,114 +430,17 @@ TEST(GltfMorphs, OfDifferentWeightsInSeveralMeshesTheFirstCount) {
         << notices.text();
 }
 
-TEST(GltfMorphs, AMotionNeedsJoints) {
+TEST(GltfMorphs, MotionNeedsJoints) {
     Face face;
     face.animate("talk", face.meshNode, "weights", {0.0, 1.0}, {0, 0, 1, 1});
     const std::string path = face.save("talk_only.gltf");
     expectError([&] { osgSkin::importMotion(path); }, "clip \"talk\" moves no joint");
 }
 
-/// A text file of a square that follows one joint, with two shapes and a clip of one of them.
-TEST(FbxMorphs, ShapesAreTargets) {
-    const std::string path = testing::TempDir() + "shapes.fbx";
-    std::ofstream(path) << R"(; FBX 7.4.0 project file
-FBXHeaderExtension:  {
-	FBXHeaderVersion: 1003
-	FBXVersion: 7400
-}
-GlobalSettings:  {
-	Version: 1000
-	Properties70:  {
-		P: "UpAxis", "int", "Integer", "",1
-		P: "UnitScaleFactor", "double", "Number", "",100
-	}
-}
-Objects:  {
-	Geometry: 10, "Geometry::square", "Mesh" {
-		Vertices: *12 { a: 0,0,0,1,0,0,1,1,0,0,1,0 }
-		PolygonVertexIndex: *6 { a: 0,1,-3,0,2,-4 }
-		GeometryVersion: 124
-	}
-	Geometry: 11, "Geometry::wide", "Shape" {
-		Indexes: *2 { a: 1,2 }
-		Vertices: *6 { a: 0.5,0,0,0.25,0,0 }
-		Normals: *6 { a: 0,0,0,0,0,0 }
-	}
-	Geometry: 12, "Geometry::tall", "Shape" {
-		Indexes: *1 { a: 3 }
-		Vertices: *3 { a: 0,1,0 }
-		Normals: *3 { a: 0,0,0 }
-	}
-	Model: 20, "Model::square", "Mesh" {
-		Version: 232
-	}
-	Model: 21, "Model::head", "LimbNode" {
-		Version: 232
-	}
-	NodeAttribute: 22, "NodeAttribute::head", "LimbNode" {
-		TypeFlags: "Skeleton"
-	}
-	Deformer: 30, "Deformer::shapes", "BlendShape" {
-		Version: 100
-	}
-	Deformer: 31, "SubDeformer::wide", "BlendShapeChannel" {
-		DeformPercent: 0
-		FullWeights: *1 { a: 100 }
-	}
-	Deformer: 32, "SubDeformer::tall", "BlendShapeChannel" {
-		DeformPercent: 0
-		FullWeights: *1 { a: 100 }
-	}
-	Deformer: 40, "Deformer::", "Skin" {
-		Link_DeformAcuracy: 50
-	}
-	Deformer: 41, "SubDeformer::", "Cluster" {
-		Indexes: *4 { a: 0,1,2,3 }
-		Weights: *4 { a: 1,1,1,1 }
-		Transform: *16 { a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1 }
-		TransformLink: *16 { a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1 }
-	}
-	AnimationStack: 50, "AnimStack::talk", "" {
-		Properties70:  {
-			P: "LocalStop", "KTime", "Time", "",46186158000
-		}
-	}
-	AnimationLayer: 51, "AnimLayer::base", "" {
-	}
-	AnimationCurveNode: 52, "AnimCurveNode::DeformPercent", "" {
-		Properties70:  {
-			P: "d|DeformPercent", "Number", "", "A",0
-		}
-	}
-	AnimationCurve: 53, "AnimCurve::", "" {
-		KeyTime: *3 { a: 0,23093079000,46186158000 }
-		KeyValueFloat: *3 { a: 0,100,50 }
-		KeyAttrFlags: *1 { a: 24836 }
-		KeyAttrDataFloat: *4 { a: 0,0,255790911,0 }
-		KeyAttrRefCount: *1 { a: 3 }
-	}
-}
-Connections:  {
-	C: "OO",20,0
-	C: "OO",21,0
-	C: "OO",22,21
-	C: "OO",10,20
-	C: "OO",30,10
-	C: "OO",31,30
-	C: "OO",32,30
-	C: "OO",11,31
-	C: "OO",12,32
-	C: "OO",40,10
-	C: "OO",41,40
-	C: "OO",21,41
-	C: "OO",51,50
-	C: "OO",52,51
-	C: "OP",52,32, "DeformPercent"
-	C: "OP",53,52, "d|DeformPercent"
-}
-)";
+/// A square that follows one joint, with two shapes and a clip of one of them.
+TEST(FbxMorphs, ReadsShapes) {
     const test::Notices notices;
-    const ImportedRig rig = osgSkin::importRig(path);
+    const ImportedRig rig = osgSkin::importRig(testData("rig/shapes.fbx"));
     EXPECT_EQ(notices.lines(), 0u) << notices.text();
     // Assimp 5.4 keeps channels in a set of pointers, in any order.
     std::vector<std::string> names = namesOf(rig.body);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-//
-// The joint whose position moves a motion's figure, and warnings about others.
+// Retargeting of small figures, and of motions of CMU.
 #include "ExpectError.h"
 #include "Figure.h"
-#include "GltfBuilder.h"
 #include "JointIndex.h"
-#include "Notices.h"
 #include "Paths.h"
 
 #include <osgSkinImport/ImportMotion>
@@ -17,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -42,7 +38,7 @@ Motion wave(const RestSkeleton& figure, std::size_t frames) {
     return motion;
 }
 
-TEST(Retarget, ToItsOwnSkeletonGivesTheMotionBack) {
+TEST(Retarget, ToTheSameSkeletonIsTheIdentity) {
     const RestSkeleton figure = makeFigure(30.0);
     const Motion motion = wave(figure, 40);
     RetargetReport report;
@@ -62,14 +58,14 @@ TEST(Retarget, ToItsOwnSkeletonGivesTheMotionBack) {
     }
 }
 
-TEST(Retarget, RestPoseInItsOwnZeroPoseIsTheRestPose) {
+TEST(Retarget, ZeroPoseGivesRestPose) {
     const RestSkeleton figure = makeFigure(30.0);
     const Clip clip = osgSkin::retarget(standStill(figure, 3), figure);
     for (const glm::dquat& q : clip.rotations) EXPECT_LT(angleBetween(q, {1, 0, 0, 0}), 1e-9);
     EXPECT_LT(glm::length(clip.rootPositions[2] - figure.joints[0].centre), 1e-9);
 }
 
-TEST(Retarget, AlignsLimbsAndNothingElse) {
+TEST(Retarget, AlignsLimbsOnly) {
     const RestSkeleton rig = makeFigure(48.0);
     RestSkeleton zeroPose = makeFigure(0.0);
     zeroPose.joints[2].centre.z += 1.0; // a head that leans: the trunk is not aligned to it
@@ -97,7 +93,7 @@ TEST(Retarget, AlignsLimbsAndNothingElse) {
     EXPECT_LT(angleBetween(forearm, {1, 0, 0}), 1e-9);
 }
 
-TEST(Retarget, JointsThatTheMotionLacksKeepTheirRestOnTheParent) {
+TEST(Retarget, MissingJointsKeepTheirRestPose) {
     RestSkeleton rig = makeFigure(48.0);
     rig.joints[6].name = "LeftPaw";
     const Clip clip = osgSkin::retarget(standStill(makeFigure(0.0), 1), rig);
@@ -113,7 +109,7 @@ TEST(Retarget, JointsWithoutADirectionFollowTheLimb) {
 }
 
 /// Exporters write a bone of no length with rounding errors, in metres or in centimetres.
-TEST(Retarget, RoundingErrorsAreNoDirection) {
+TEST(Retarget, IgnoresRoundingErrors) {
     for (const double unit : {0.01, 1.0, 100.0}) {
         RestSkeleton rig = makeFigure(48.0), zeroPose = makeFigure(0.0);
         zeroPose.joints[6].tip = zeroPose.joints[6].centre + glm::dvec3(0.0, 3e-7, 2e-7);
@@ -127,7 +123,7 @@ TEST(Retarget, RoundingErrorsAreNoDirection) {
     }
 }
 
-TEST(Retarget, HandsPointToTheFingersNotTheThumb) {
+TEST(Retarget, HandsPointToTheFingers) {
     RestSkeleton rig = makeFigure(0.0);
     const glm::dvec3 hand = rig.joints[6].centre;
     rig.joints[6].tip.reset();
@@ -140,7 +136,7 @@ TEST(Retarget, HandsPointToTheFingersNotTheThumb) {
     EXPECT_NEAR(report.entries[6].alignmentDegrees, 0.0, 1e-9);
 }
 
-TEST(Retarget, MapsByTheCallersNamesThenEqualNamesThenAliases) {
+TEST(Retarget, MapsNamesInOrder) {
     RestSkeleton rig = makeFigure(0.0);
     rig.joints[6].name = "LeftHandFinger1";
     rig.joints[5].name = "Elbow";
@@ -160,7 +156,7 @@ TEST(Retarget, MapsByTheCallersNamesThenEqualNamesThenAliases) {
     EXPECT_NEAR(angleBetween(clip.rotations[6], {1, 0, 0, 0}), 20.0, 1e-9);
 }
 
-TEST(Retarget, ScalesTheWayByHipHeight) {
+TEST(Retarget, ScalesTranslationByHipHeight) {
     const RestSkeleton rig = makeFigure(0.0, 0.5);
     Motion motion = standStill(makeFigure(0.0), 2);
     motion.rootPositions[1] += glm::dvec3(4, 0, -2);
@@ -174,7 +170,7 @@ TEST(Retarget, ScalesTheWayByHipHeight) {
               1e-9);
 }
 
-TEST(Retarget, StandsWhereItRestsWhereverTheActorWasModelled) {
+TEST(Retarget, IgnoresTheActorsOrigin) {
     const RestSkeleton rig = makeFigure(0.0, 0.5);
     RestSkeleton actor = makeFigure(0.0);
     const glm::dvec3 aside(3, 0, -2);
@@ -189,7 +185,7 @@ TEST(Retarget, StandsWhereItRestsWhereverTheActorWasModelled) {
     EXPECT_LT(glm::length(clip.rootPositions[1] - glm::dvec3(2, 5, -1)), 1e-9);
 }
 
-TEST(Retarget, StandsOnTheRestPosesFloorWhateverTheMotionsFloorIs) {
+TEST(Retarget, StandsOnTheRigsFloor) {
     const RestSkeleton rig = makeFigure(0.0);
     Motion motion = standStill(makeFigure(0.0), 100);
     for (std::size_t f = 0; f < 100; ++f) {
@@ -213,7 +209,7 @@ RestSkeleton onGround(const RestSkeleton& figure) {
     return rig;
 }
 
-TEST(Retarget, ARootOfTheRigsOwnLeavesTheMovements) {
+TEST(Retarget, ExtraRootKeepsTheMotion) {
     const RestSkeleton rig = makeFigure(48.0);
     const Motion motion = wave(makeFigure(30.0), 20);
     const Clip with = osgSkin::retarget(motion, onGround(rig));
@@ -226,7 +222,7 @@ TEST(Retarget, ARootOfTheRigsOwnLeavesTheMovements) {
                 << rig.joints[j].name;
 }
 
-TEST(Retarget, RigMayHaveARootOfItsOwn) {
+TEST(Retarget, RigMayHaveAnExtraRoot) {
     const RestSkeleton rig = onGround(makeFigure(0.0));
     Motion motion = standStill(makeFigure(0.0), 1);
     motion.rotations[0] = turnDegrees(90, {0, 1, 0});
@@ -238,7 +234,7 @@ TEST(Retarget, RigMayHaveARootOfItsOwn) {
     EXPECT_NEAR(angleBetween(placed.turns[1], {1, 0, 0, 0}), 90.0, 1e-9);
 }
 
-TEST(RetargetNotes, TellOfLimbsThatStayAtRest) {
+TEST(RetargetNotes, ReportLimbsAtRest) {
     const RestSkeleton figure = makeFigure(0.0);
     RestSkeleton other = figure;
     RetargetReport report;
@@ -290,7 +286,7 @@ TEST(RetargetNotes, TellOfLimbsThatStayAtRest) {
         << report.notes[0];
 }
 
-TEST(RetargetErrors, NameWhatDoesNotMatch) {
+TEST(RetargetErrors, NameTheMismatch) {
     const RestSkeleton figure = makeFigure(0.0);
     const Motion motion = standStill(figure, 1);
     expectError(
@@ -357,7 +353,7 @@ TEST_P(CmuClip, LimbsPointWhereTheMotionsLimbsPoint) {
 }
 
 /// The rig's sole is as flat as the motion's, whatever the slopes of the two skeletons' foot bones.
-TEST_P(CmuClip, FeetTurnWithTheMotionButForTheirHeading) {
+TEST_P(CmuClip, FeetKeepTheirHeading) {
     for (const std::string name : {"LeftFoot", "RightFoot"}) {
         const auto ours = static_cast<std::size_t>(rig.find(name));
         for (std::size_t f = 0; f < clip.frames; f += 7) {
@@ -422,121 +418,4 @@ TEST_P(CmuWalk, HandsHangBelowTheShoulders) {
 
 INSTANTIATE_TEST_SUITE_P(Files, CmuWalk, testing::Values("12_01_walk_pybvh.bvh"));
 
-using test::GltfColumn;
-
-constexpr char kOnly[] = "only moves of \"base\" are used";
-
-/// Distance of the figure's last sample from its first.
-double wayOf(const osgSkin::Motion& motion) {
-    return glm::distance(motion.rootPositions.front(), motion.rootPositions.back());
-}
-
 } // namespace
-
-TEST(RootMotion, NodesMayCountInUnitsOfTheirOwn) {
-    for (const double unit : {0.01, 1.0, 100.0, 10000.0}) {
-        GltfColumn column;
-        const std::size_t armature =
-            column.node({{"name", "armature"}, {"children", {0}}, {"scale", {unit, unit, unit}}});
-        for (const std::size_t joint : {column.joints[1], column.joints[2]})
-            column.json["nodes"][joint]["translation"] = {0, 1.0 / unit, 0};
-        column.json["scenes"][0]["nodes"] = {armature};
-        column.json.erase("skins"); // only a motion
-        column.json.erase("meshes");
-        column.json["nodes"][column.meshNode] = {{"name", "empty"}};
-        column.animate("walk", column.joints[0], "rotation", {0.0, 1.0},
-                       GltfColumn::turns({0, 10}));
-        column.animate("walk", column.joints[1], "translation", {0.0, 1.0},
-                       {0, 1.0 / unit, 0, 0, 1.05 / unit, 0});
-        column.animate("walk", column.joints[2], "rotation", {0.0, 1.0},
-                       GltfColumn::turns({0, 10}));
-        const osgSkin::Motion motion = osgSkin::importMotion(column.save("units.gltf"));
-        ASSERT_EQ(motion.skeleton.joints.front().name, "middle") << unit;
-        EXPECT_GT(wayOf(motion), 0.04) << unit;
-    }
-}
-
-/// For a figure that crouches in place below a static root.
-TEST(RootMotion, FiguresOfBvhFilesMayBeSmall) {
-    for (const double unit : {0.002, 0.01, 1.0, 100.0}) {
-        const auto vector = [&](double y) { return "0 " + std::to_string(unit * y) + " 0"; };
-        const std::string path = testing::TempDir() + "small_figure.bvh";
-        std::ofstream(path)
-            << "HIERARCHY\nROOT reference\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation "
-               "Yrotation\nJOINT hips\n{\nOFFSET "
-            << vector(1.0)
-            << "\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\nJOINT "
-               "spine\n{\nOFFSET "
-            << vector(0.5) << "\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET "
-            << vector(0.3) << "\n}\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0 "
-            << vector(1.0) << " 0 0 0 0 0 0\n0 0 0 " << vector(0.92) << " 0 0 0 0 0 0\n";
-        const osgSkin::Motion motion = osgSkin::importMotion(path);
-        EXPECT_EQ(motion.skeleton.joints.front().name, "hips") << unit;
-        EXPECT_NEAR(wayOf(motion), 0.08 * unit, 0.01 * unit);
-    }
-}
-
-TEST(RootMotion, AnEndCarriesNothing) {
-    GltfColumn column;
-    column.bend();
-    column.animate("bend", column.joints[2], "translation", {0.0, 1.0}, {0, 1, 0, 0, 2, 0});
-    const test::Notices notices;
-    const osgSkin::Motion motion = osgSkin::importMotion(column.save("end.gltf"));
-    EXPECT_EQ(motion.skeleton.joints.size(), 3u);
-    EXPECT_TRUE(notices.say(kOnly)) << notices.text();
-}
-
-TEST(RootMotion, ScalesAreToldOf) {
-    for (const double scale : {1.0, 2.0}) {
-        GltfColumn column;
-        column.bend();
-        column.animate("bend", column.joints[2], "scale", {0.0, 1.0},
-                       {1, 1, 1, scale, scale, scale});
-        const test::Notices notices;
-        osgSkin::importMotion(column.save("scaled.gltf"));
-        EXPECT_EQ(notices.say("joint \"top\" is scaled, which motions are read without"),
-                  scale > 1.0)
-            << notices.text();
-    }
-}
-
-/// Game engines' skeletons have a root on the ground, and targets beside the hips.
-TEST(RootMotion, HipsBesideTargetsCarryTheFigure) {
-    const std::string moves =
-        "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
-    const std::string turns = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
-    const auto joint = [](const std::string& name, const std::string& offset,
-                          const std::string& channels, const std::string& below) {
-        return "JOINT " + name + "\n{\nOFFSET " + offset + "\n" + channels + below + "}\n";
-    };
-    const std::string end = "End Site\n{\nOFFSET 0 0.1 0\n}\n";
-    std::string body = joint("spine_01", "0 0.2 0", turns, joint("head", "0 0.4 0", turns, end));
-    for (const std::string side : {"l", "r"}) {
-        const std::string foot = joint("foot_" + side, "0 -0.5 0", turns, end);
-        const std::string calf = joint("calf_" + side, "0 -0.5 0", turns, foot);
-        body += joint("thigh_" + side, side == "l" ? "0.1 0 0" : "-0.1 0 0", turns, calf);
-    }
-    std::string rest;
-    for (int i = 0; i < 24; ++i) rest += "0 ";
-    const std::string path = testing::TempDir() + "engine.bvh";
-    std::ofstream(path) << "HIERARCHY\nROOT root\n{\nOFFSET 0 0 0\n"
-                        << moves << joint("ik_foot_root", "0 0 0", turns, end)
-                        << joint("pelvis", "0 1 0", moves, body)
-                        << "}\nMOTION\nFrames: 2\nFrame Time: 0.1\n"
-                        << "0 0 0 0 0 0  0 0 0  0 1 0 0 0 0 " << rest << "\n"
-                        << "1 0 0 0 0 90  0 40 0  0 0.5 0 0 30 0 " << rest << "\n";
-    const test::Notices notices;
-    const osgSkin::Motion motion = osgSkin::importMotion(path);
-    ASSERT_EQ(motion.skeleton.joints.size(), 10u);
-    EXPECT_EQ(motion.skeleton.joints[0].name, "pelvis");
-    EXPECT_EQ(motion.skeleton.joints[1].name, "ik_foot_root");
-    EXPECT_EQ(motion.skeleton.joints[1].parent, 0);
-    EXPECT_EQ(motion.skeleton.joints[1].centre, glm::dvec3(0.0));
-    EXPECT_LT(glm::distance(motion.rootPositions[0], {0, 1, 0}), 1e-9);
-    EXPECT_LT(glm::distance(motion.rootPositions[1], {1, 0.5, 0}), 1e-9);
-    const glm::dquat above = turnDegrees(90, {0, 1, 0});
-    const glm::dquat pelvis = motion.rotation(1, 0), target = pelvis * motion.rotation(1, 1);
-    EXPECT_GT(std::abs(glm::dot(pelvis, above * turnDegrees(30, {1, 0, 0}))), 1.0 - 1e-9);
-    EXPECT_GT(std::abs(glm::dot(target, above * turnDegrees(40, {1, 0, 0}))), 1.0 - 1e-9);
-    EXPECT_EQ(notices.text(), "");
-}

@@ -114,7 +114,7 @@ void expectSame(const SourceScene& a, const SourceScene& b) {
 
 } // namespace
 
-TEST(SourceScene, GltfIsWhatAssimpReads) {
+TEST(SourceScene, GltfMatchesAssimp) {
     if (!isAssimp52()) GTEST_SKIP() << "needs Assimp 5.2, which keeps the order of vertices";
     const std::string models = "/usr/share/assimp/models/glTF2/";
     for (const std::string& file :
@@ -131,7 +131,7 @@ TEST(SourceScene, GltfIsWhatAssimpReads) {
     }
 }
 
-TEST(SourceScene, FilesAreReadOnceForWhoSharesThem) {
+TEST(SourceScene, ReadsSharedFilesOnce) {
     GltfColumn column;
     column.bend();
     const std::string file = column.save("read_once.gltf");
@@ -146,7 +146,7 @@ TEST(SourceScene, FilesAreReadOnceForWhoSharesThem) {
     expectError([&] { osgSkin::importMesh(file); }, file);
 }
 
-TEST(SourceScene, MotionsDoNotChangeWhatIsShared) {
+TEST(SourceScene, ImportMotionKeepsSharedScene) {
     GltfColumn column; // in which only the clip gives the upper joint's position
     column.animate("grow", column.joints[2], "translation", {0, 1}, {0, 3, 0, 0, 3, 0});
     column.json["nodes"][column.joints[2]].erase("translation");
@@ -160,7 +160,7 @@ TEST(SourceScene, MotionsDoNotChangeWhatIsShared) {
         EXPECT_EQ(before.joints[j].centre, after.joints[j].centre) << before.joints[j].name;
 }
 
-TEST(SourceScene, SetsOfTexCoordsMayLeaveNumbersOut) {
+TEST(SourceScene, TextureCoordinateSetsMayHaveGaps) {
     GltfColumn column;
     const std::vector<double> halves(48, 0.5);
     column.attributes()["TEXCOORD_1"] = column.accessor("VEC2", halves);

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
-//
 // Motions with a zero pose in which no body could stand.
 #include "ActorMotions.h"
 #include "BvhWriter.h"
 #include "ExpectError.h"
 #include "Figure.h"
 #include "GltfWriter.h"
-#include "Paths.h"
 
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
-#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Retarget>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <random>
 
 using namespace osgSkin;
 
@@ -69,16 +64,16 @@ protected:
 
 } // namespace
 
-TEST_F(StandingPose, AFoldedZeroPoseIsReplacedByASample) {
+TEST_F(StandingPose, ReplacesFoldedZeroPose) {
     expectLikeTheActor(throughBvh(rebasedFrom(actor, folded(joints))), "counted from sample");
 }
 
-TEST_F(StandingPose, BonesAlongOneAxisAreReplacedByASample) {
+TEST_F(StandingPose, ReplacesBonesAlongOneAxis) {
     expectLikeTheActor(throughBvh(rebasedFrom(actor, alongOneAxis(actor.skeleton))),
                        "counted from sample");
 }
 
-TEST_F(StandingPose, ACalibrationPoseGoesFirst) {
+TEST_F(StandingPose, PrefersCalibrationPose) {
     Motion calibrated = actor;
     calibrated.frames += 1;
     calibrated.rotations.insert(calibrated.rotations.begin() + std::ptrdiff_t(40 * joints), joints,
@@ -93,7 +88,7 @@ TEST_F(StandingPose, ACalibrationPoseGoesFirst) {
 }
 
 /// Every frame has the offsets of all joints, and OFFSET is zero.
-TEST_F(StandingPose, OffsetsInTheFramesAreTheSkeletons) {
+TEST_F(StandingPose, ReadsOffsetsFromFrames) {
     const Motion motion = throughBvh(actor, true);
     for (std::size_t j = 1; j < joints; ++j)
         EXPECT_LT(glm::distance(motion.skeleton.joints[j].centre - motion.skeleton.joints[0].centre,
@@ -104,14 +99,14 @@ TEST_F(StandingPose, OffsetsInTheFramesAreTheSkeletons) {
     EXPECT_GT(difference.lowest, -0.1 * rig.joints[0].centre.y);
 }
 
-TEST_F(StandingPose, AStandingZeroPoseStaysWhatItIs) {
+TEST_F(StandingPose, KeepsStandingZeroPose) {
     RetargetReport report;
     retarget(actor, rig, {}, &report);
     EXPECT_TRUE(report.notes.empty()) << report.notes[0];
 }
 
 /// An actor without neck and head joints is upright by his arms, in any position.
-TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
+TEST_F(StandingPose, KeepsZeroPoseWithoutHead) {
     Motion aside = actor;
     for (RestJoint& joint : aside.skeleton.joints) {
         joint.centre.x += 40.0;
@@ -140,7 +135,7 @@ TEST_F(StandingPose, AHeadlessActorsZeroPoseStaysWhatItIs) {
 }
 
 /// A motion without a standing sample cannot be retargeted, and no pose is invented.
-TEST_F(StandingPose, WhoNeverStandsIsRefusedWithAReason) {
+TEST_F(StandingPose, RejectsActorWhoNeverStands) {
     Motion sitting = actor;
     for (std::size_t f = 0; f < sitting.frames; ++f)
         for (const std::string side : {"Left", "Right"}) {
@@ -157,7 +152,7 @@ TEST_F(StandingPose, WhoNeverStandsIsRefusedWithAReason) {
     EXPECT_NO_THROW(retarget(sitting, rig)) << "its zero pose stands";
 }
 
-TEST_F(StandingPose, TheSameFoldedSkeletonGetsItsRotationsCopied) {
+TEST_F(StandingPose, CopiesRotationsToTheSameSkeleton) {
     const Motion motion = throughBvh(rebasedFrom(actor, folded(joints)));
     RestSkeleton same = motion.skeleton;
     RetargetReport report;
@@ -171,7 +166,7 @@ TEST_F(StandingPose, TheSameFoldedSkeletonGetsItsRotationsCopied) {
 }
 
 /// A file with only the animation rests in any pose; its joints' axes are the character's.
-TEST_F(StandingPose, TheSameJointsInAnotherPoseMoveLikeTheirOwn) {
+TEST_F(StandingPose, SameJointsInAnotherPoseMoveAlike) {
     const Motion motion = rebasedFrom(actor, folded(joints), true);
     RetargetReport ours, theirs;
     const Clip expected = retarget(actor, rig, {}, &ours);
@@ -184,7 +179,7 @@ TEST_F(StandingPose, TheSameJointsInAnotherPoseMoveLikeTheirOwn) {
 }
 
 /// The same through files, the animation's without a mesh and posed like its first sample.
-TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
+TEST_F(StandingPose, GltfAnimationMovesItsCharacter) {
     const std::string stem = testing::TempDir() + "osgskin_animation_only_";
     Motion still = actor;
     const std::vector<glm::dquat> axes = folded(joints, 11); // as exporters write them
@@ -212,7 +207,7 @@ TEST_F(StandingPose, AGltfWithAnimationOnlyMovesItsCharacter) {
 }
 
 /// Meaningless names, on a folded skeleton: the rig's shape identifies both.
-TEST_F(StandingPose, TheRigsShapeTellsWhatTheMotionsJointsAre) {
+TEST_F(StandingPose, InfersJointsFromTheRig) {
     Motion motion = rebasedFrom(actor, folded(joints));
     RestSkeleton nameless = rig;
     for (std::size_t j = 0; j < joints; ++j)
@@ -224,12 +219,12 @@ TEST_F(StandingPose, TheRigsShapeTellsWhatTheMotionsJointsAre) {
 }
 
 /// Max's Biped writes a zero pose that stands along z, and frames along y.
-TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedByASample) {
+TEST_F(StandingPose, ReplacesLyingZeroPose) {
     const std::vector<glm::dquat> lying(joints, turnDegrees(90, {1, 0, 0}));
     expectLikeTheActor(throughBvh(rebasedFrom(actor, lying)), "zero pose lies");
 }
 
-TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedWhereTheActorStaysInPlaceToo) {
+TEST_F(StandingPose, ReplacesLyingZeroPoseInPlace) {
     Motion inPlace = actor;
     for (glm::dvec3& position : inPlace.rootPositions) position = glm::dvec3(0.0);
     const std::vector<glm::dquat> lying(joints, turnDegrees(-90, {1, 0, 0}));
@@ -241,7 +236,7 @@ TEST_F(StandingPose, AZeroPoseThatLiesIsReplacedWhereTheActorStaysInPlaceToo) {
 }
 
 /// A sleeping actor has a zero pose that stands.
-TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
+TEST_F(StandingPose, KeepsLyingActor) {
     Motion asleep = actor;
     for (std::size_t f = 0; f < asleep.frames; ++f) {
         for (std::size_t j = 0; j < joints; ++j) asleep.rotations[f * joints + j] = kIdentity;
@@ -257,7 +252,7 @@ TEST_F(StandingPose, AnActorWhoLiesStaysLying) {
 }
 
 /// An actor who never straightens the legs does not show whether a zero pose along z lies down.
-TEST_F(StandingPose, AZeroPoseThatNoSampleStandsAlongIsToldOf) {
+TEST_F(StandingPose, WarnsWithoutStandingSample) {
     Motion crouches = actor;
     for (std::size_t f = 0; f < crouches.frames; ++f)
         for (std::size_t j = 0; j < joints; ++j) {
@@ -279,7 +274,7 @@ TEST_F(StandingPose, AZeroPoseThatNoSampleStandsAlongIsToldOf) {
 
 /// A motion without a character rests in the actor's first sample. glTF defines which axis is up;
 /// in other formats the floor shows it, on which he lies.
-TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
+TEST_F(StandingPose, GettingUpFollowsTheUpAxis) {
     Motion getsUp = actor;
     for (std::size_t f = 0; f < getsUp.frames; ++f) {
         const double share = std::clamp(2.0 * double(f) / double(getsUp.frames) - 0.5, 0.0, 1.0);
@@ -301,7 +296,7 @@ TEST_F(StandingPose, WhoGetsUpDoesSoWhereYIsUp) {
 }
 
 /// Authors name sides from their own view.
-TEST_F(StandingPose, FeetThatPointBackwardsAreToldOf) {
+TEST_F(StandingPose, WarnsAboutBackwardFeet) {
     RestSkeleton swapped = rig;
     for (RestJoint& joint : swapped.joints) {
         joint.centre.x *= 1.3; // not the actor's own
@@ -324,7 +319,7 @@ TEST_F(StandingPose, FeetThatPointBackwardsAreToldOf) {
     EXPECT_FALSE(saysOf(right, "feet point backwards"));
 }
 
-TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
+TEST_F(StandingPose, DistantRootStartsAtTheOrigin) {
     Motion far = actor;
     const glm::dvec3 there(1e3, 0.0, -2e3);
     for (glm::dvec3& position : far.rootPositions) position += there;
@@ -350,7 +345,7 @@ TEST_F(StandingPose, ARootFarFromTheOriginStartsAtIt) {
 }
 
 /// A rig that lies while the actor stands is not a dance.
-TEST_F(StandingPose, HipsOnTheFloorOfAnActorWhoStandsAreAnError) {
+TEST_F(StandingPose, RejectsHipsOnTheFloor) {
     RetargetOptions options;
     for (const std::string side : {"Left", "Right"}) {
         options.joints[side + "UpLeg"] = side + "Arm";
@@ -373,93 +368,3 @@ TEST_F(StandingPose, HipsOnTheFloorOfAnActorWhoStandsAreAnError) {
     }
     expectError([&] { retarget(cross, rig, options); }, "hips are as low as its feet");
 }
-
-namespace {
-
-using osgSkin::Clip;
-using osgSkin::Motion;
-using osgSkin::RestSkeleton;
-using osgSkin::RetargetReport;
-
-constexpr std::size_t kFoot = 10;
-const glm::dvec3 kToes = {0, -1, 2}; ///< the direction of makeFigure()'s foot
-
-/// In frame d the foot nods a little and is rolled by d - 180 degrees about its own length.
-Motion rollAround() {
-    Motion motion = standStill(makeFigure(0.0), 361);
-    for (std::size_t f = 0; f < motion.frames; ++f)
-        motion.rotations[f * motion.skeleton.joints.size() + kFoot] =
-            turnDegrees(20.0, {1, 0, 0}) * turnDegrees(double(f) - 180.0, kToes);
-    return motion;
-}
-
-double rollFrom(const glm::dquat& shin, const glm::dquat& foot) {
-    const glm::dquat turn =
-        glm::conjugate(shin * turnDegrees(20.0, {1, 0, 0})) * foot; // about kToes only
-    return angleBetween(glm::dquat(1, 0, 0, 0), turn);
-}
-
-TEST(FootRoll, BeyondARightAngleIsTakenBack) {
-    const Motion motion = rollAround();
-    RetargetReport report;
-    const Clip clip = osgSkin::retarget(motion, motion.skeleton, {}, &report);
-    for (std::size_t f = 0; f < clip.frames; ++f) {
-        const Placed posed = place(clip, motion.skeleton, f);
-        const double rolled = std::abs(double(f) - 180.0);
-        EXPECT_NEAR(rollFrom(posed.turns[kFoot - 1], posed.turns[kFoot]),
-                    std::min(rolled, 180.0 - rolled), 1e-6)
-            << f;
-        EXPECT_LT(angleBetween(posed.turns[kFoot] * kToes, place(motion, f).turns[kFoot] * kToes),
-                  1e-6)
-            << f;
-    }
-    EXPECT_EQ(report.entries[kFoot].flippedFrames, 180u); // 91 to 180 degrees, both ways
-    EXPECT_EQ(report.entries[kFoot - 1].flippedFrames, 0u);
-    EXPECT_NE(report.text().find("upside down in 180 samples"), std::string::npos);
-}
-
-TEST(FootRoll, NeverJumps) {
-    const Motion motion = rollAround();
-    const Clip clip = osgSkin::retarget(motion, motion.skeleton);
-    for (std::size_t f = 1; f < clip.frames; ++f)
-        EXPECT_LT(angleBetween(clip.rotations[(f - 1) * clip.joints + kFoot],
-                               clip.rotations[f * clip.joints + kFoot]),
-                  1.001)
-            << f;
-}
-
-TEST(FootRoll, TurnsToesAlong) {
-    RestSkeleton rig = makeFigure(0.0);
-    rig.joints.push_back({"LeftToeBase", int(kFoot), {1, 0.2, 1.6}, {}});
-    rig.joints[kFoot].tip.reset();
-    rig.joints.back().tip = glm::dvec3(1, 0.2, 2.5);
-    Motion motion = standStill(rig, 1);
-    motion.rotations[kFoot] = turnDegrees(170.0, {0, -0.8, 1.6});
-    motion.rotations[kFoot + 1] = turnDegrees(15.0, {1, 0, 0});
-    const Clip clip = osgSkin::retarget(motion, rig);
-    EXPECT_NEAR(angleBetween(clip.rotations[kFoot], glm::dquat(1, 0, 0, 0)), 10.0, 1e-6);
-    EXPECT_NEAR(angleBetween(clip.rotations[kFoot + 1], motion.rotations[kFoot + 1]), 0.0, 1e-6);
-}
-
-/// A dancer whose feet are upside down in the file for most of its seven seconds.
-TEST(FootRoll, OfTheDancerIsWhatAnAnkleCan) {
-    const std::string dance = sharedData("cmu/daz/05_06.bvh");
-    OSGSKIN_NEEDS(dance);
-    const RestSkeleton rig =
-        osgSkin::importSkeleton(sharedData("makehuman/rig/cmu_mb_neutral.bvh"));
-    RetargetReport report;
-    const Clip clip = osgSkin::retarget(osgSkin::importMotion(dance), rig, {}, &report);
-    for (const char* name : {"LeftFoot", "RightFoot"}) {
-        std::size_t foot = 0;
-        while (rig.joints.at(foot).name != name) ++foot;
-        EXPECT_GT(report.entries[foot].flippedFrames, clip.frames / 2);
-        std::size_t wrung = 0;
-        for (std::size_t f = 0; f < clip.frames; ++f)
-            if (angleBetween(glm::dquat(1, 0, 0, 0), clip.rotations[f * clip.joints + foot]) > 90.0)
-                ++wrung;
-        // The remaining samples are those in which the file also bends the foot back.
-        EXPECT_LT(wrung, report.entries[foot].flippedFrames / 7) << name;
-    }
-}
-
-} // namespace

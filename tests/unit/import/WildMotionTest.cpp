@@ -217,7 +217,7 @@ class LyingActor : public testing::TestWithParam<LyingCase> {};
 
 } // namespace
 
-TEST_P(LyingActor, LiesOnTheRig) {
+TEST_P(LyingActor, StaysLying) {
     const LyingCase& c = GetParam();
     const Motion truth = enact(bodyIn(c.unit), c.act);
     Motion motion = rebasedFrom(truth, c.zero(truth.skeleton));
@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, LyingActor, testing::ValuesIn(kLying),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 /// Refused, as nothing shows how the body of the zero pose stands.
-TEST(LyingActors, WhoCrawlFromAMeaninglessPoseAreRefused) {
+TEST(LyingActors, RejectsCrawlingWithoutPose) {
     const Motion truth = enact(bodyIn(1.0), crawl);
     const Motion motion = rebasedFrom(truth, foldedUp(truth.skeleton));
     expectError([&] { retarget(motion, otherBody()); }, "such as a T-pose");
@@ -347,7 +347,7 @@ protected:
 } // namespace
 
 /// A clip for a figure of other proportions moves the joints as one for the character itself.
-TEST_P(PosedClip, MovesABodyOfTheSameJoints) {
+TEST_P(PosedClip, MovesBodyWithSameJoints) {
     const RestSkeleton rig = character();
     RetargetReport report;
     const Clip clip = retarget(clipOf(onOtherBody(acted, c.unit), "_other.gltf"), rig, {}, &report);
@@ -370,7 +370,7 @@ TEST_P(PosedClip, MovesABodyOfTheSameJoints) {
 INSTANTIATE_TEST_SUITE_P(Cases, PosedClip, testing::ValuesIn(kPosed),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST(PosedClips, OfAnotherPrefixMoveTheBody) {
+TEST(PosedClips, PrefixMayDiffer) {
     const std::string stem = testing::TempDir() + "osgskin_prefix";
     const Motion acted = enact(bodyIn(1.0), bow);
     const RestSkeleton& body = acted.skeleton;
@@ -388,7 +388,7 @@ TEST(PosedClips, OfAnotherPrefixMoveTheBody) {
 }
 
 /// Joints of the same names with other axes have other local rotations.
-TEST(PosedClips, OfOtherAxesAreNotCopied) {
+TEST(PosedClips, AreNotCopiedToOtherAxes) {
     const std::string stem = testing::TempDir() + "osgskin_other_axes";
     const Motion acted = enact(bodyIn(1.0), walk);
     const RestSkeleton& body = acted.skeleton;
@@ -435,7 +435,7 @@ double worstFoot(const RestSkeleton& rig, const RestSkeleton& actor, double toes
 
 } // namespace
 
-TEST(Soles, FlatAtRestInBothStayFlat) {
+TEST(Soles, FlatFeetStayFlat) {
     const RestSkeleton usual = withFeet({0.0, -0.056, 0.147}, glm::dvec3(0.0, -0.007, 0.08));
     const RestSkeleton above = withFeet({0.0, -0.06, 0.0}, glm::dvec3(0.0, 0.0, 0.2));
     const RestSkeleton nearly = withFeet({0.0, -0.06, 0.02}, glm::dvec3(0.0, 0.0, 0.2));
@@ -451,7 +451,7 @@ TEST(Soles, FlatAtRestInBothStayFlat) {
 }
 
 /// The feet of a body that hangs at rest are no soles.
-TEST(Soles, ThatHangAreAligned) {
+TEST(Soles, HangingFeetAreAligned) {
     const RestSkeleton usual = withFeet({0.0, -0.056, 0.147}, glm::dvec3(0.0, -0.007, 0.08));
     const RestSkeleton hanging = withFeet({0.0, -0.19, 0.03}, glm::dvec3(0.0, -0.08, 0.0));
     EXPECT_GT(worstFoot(usual, hanging, 0.0), 45.0);

@@ -102,7 +102,7 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
         const LoadOptions own = withSharedScenes(options);
         return makeCharacter(readSkinFile(file, own, stages), own, stages);
     }
-    if (isReadByAssimp(file)) {
+    if (hasImporter(file)) {
         const LoadOptions own = withSharedScenes(options);
         return makeCharacter(readRig(file, own, stages), own, stages);
     }

@@ -119,9 +119,9 @@ double unitOf(double stated, const LoadOptions& options, const std::string& file
 CharacterSource readSkinFile(const std::string& file, const LoadOptions& options,
                              LoadStages& stages);
 
-/// Reads a rigged model by Assimp: body, painted weights, skeleton and animations.
+/// Reads a rigged model (glTF, FBX, ...): body, painted weights, skeleton and animations.
 ///
-/// \param file for which isReadByAssimp() holds
+/// \param file for which hasImporter() is true
 /// \param options are applied, see applyOptions()
 /// \param stages planned for the whole load here; the first one is begun
 /// \return all that the character is made of

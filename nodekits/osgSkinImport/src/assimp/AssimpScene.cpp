@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/AssimpScene.h"
 
+#include "files/FileText.h"
 #include "scene/SceneMorphs.h"
-#include "text/FileText.h"
 
 #include <glm/geometric.hpp>
 #include <osg/Math>
@@ -42,8 +42,9 @@ osg::Vec4 colour(const aiMaterial& material, const char* key, unsigned type, uns
 
 /// An embedded texture of raw texels from the upper left, as in .mdl.
 osg::ref_ptr<osg::Image> rawImage(const aiTexture& texture) {
-    constexpr unsigned most = 1u << 14;
-    if (texture.mWidth == 0 || texture.mWidth > most || texture.mHeight > most) return nullptr;
+    constexpr unsigned kMaxSide = 1u << 14;
+    if (texture.mWidth == 0 || texture.mWidth > kMaxSide || texture.mHeight > kMaxSide)
+        return nullptr;
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(static_cast<int>(texture.mWidth), static_cast<int>(texture.mHeight), 1,
                          GL_RGBA, GL_UNSIGNED_BYTE);
@@ -115,21 +116,21 @@ std::vector<TextureKind> drawnTextures(const aiMaterial& source) {
 SourceMaterial readMaterial(const aiScene& scene, const aiMaterial& source,
                             std::map<std::string, std::size_t>& unused) {
     SourceMaterial result;
-    Material& look = result.look;
-    look.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, look.diffuse);
-    look.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, look.specular);
-    look.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, look.emission);
+    Material& surface = result.material;
+    surface.diffuse = colour(source, AI_MATKEY_COLOR_DIFFUSE, surface.diffuse);
+    surface.specular = colour(source, AI_MATKEY_COLOR_SPECULAR, surface.specular);
+    surface.emission = colour(source, AI_MATKEY_COLOR_EMISSIVE, surface.emission);
     float opacity = 1.0f;
-    if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) look.diffuse.a() = opacity;
-    source.Get(AI_MATKEY_SHININESS, look.shininess);
+    if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) surface.diffuse.a() = opacity;
+    source.Get(AI_MATKEY_SHININESS, surface.shininess);
     for (const auto& [map, type] : drawnTextures(source)) {
         aiString name;
         if (source.GetTexture(type, 0, &name) != AI_SUCCESS) continue;
         result.textures[map].name = name.C_Str();
         const int embedded = scene.GetEmbeddedTextureAndIndex(name.C_Str()).second;
         if (embedded >= 0) result.textures[map].image = static_cast<std::size_t>(embedded);
-        look.textures[map].wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type);
-        look.textures[map].wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type);
+        surface.textures[map].wrapS = wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type);
+        surface.textures[map].wrapT = wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type);
     }
     for (unsigned number = aiTextureType_NONE + 1; number <= AI_TEXTURE_TYPE_MAX; ++number) {
         const auto type = static_cast<aiTextureType>(number);
@@ -141,7 +142,7 @@ SourceMaterial readMaterial(const aiScene& scene, const aiMaterial& source,
         ++unused[aiTextureTypeToString(type)];
         // Without its texture, the colour would make the whole surface glow.
         if (type == aiTextureType_EMISSIVE || type == aiTextureType_EMISSION_COLOR)
-            look.emission = Material().emission;
+            surface.emission = Material().emission;
     }
     return result;
 }
@@ -151,7 +152,7 @@ void readMaterials(const aiScene& scene, const std::string& path, SourceScene& r
     for (unsigned m = 0; m < scene.mNumMaterials; ++m)
         result.materials.push_back(readMaterial(scene, *scene.mMaterials[m], unused));
     result.materials.emplace_back(); // for meshes without a material
-    tellOfUnusedTextures(path, unused);
+    warnUnusedTextures(path, unused);
     for (unsigned t = 0; t < scene.mNumTextures; ++t)
         result.images.push_back(
             std::make_shared<const SourceImage>(readImage(*scene.mTextures[t])));
@@ -283,11 +284,10 @@ public:
         }
     }
 
-    void tell(const std::string& path) const {
-        _names.tell(path);
+    void warnLosses(const std::string& path) const {
+        _names.warnRenamed(path);
         if (_between > 0)
-            tellOf(path,
-                   std::to_string(_between) + " in-between shapes of morph targets are left out");
+            warn(path, std::to_string(_between) + " in-between shapes of morph targets ignored");
     }
 
 private:
@@ -368,8 +368,8 @@ SourceAnimation readAnimation(const aiAnimation& source) {
 }
 
 /// The children that each node should have. Some of Assimp's readers leave null children in a node.
-/// The reader of Half-Life's models lists all bones as children of one node, and tells only by
-/// mParent which bone hangs on which.
+/// The reader of Half-Life's models lists all bones as children of one node, and only
+/// mParent says which bone is below which.
 std::unordered_map<const aiNode*, std::vector<const aiNode*>> childrenOf(const aiScene& scene) {
     std::unordered_map<const aiNode*, std::vector<const aiNode*>> result;
     std::vector<const aiNode*> open{scene.mRootNode};
@@ -554,29 +554,12 @@ void editFile(const std::string& path, const ReadLimits& limits, Assimp::Importe
     if (extension == "fbx") {
         renamePropertyConnections(bytes);
     } else if (const std::size_t morphs = removeMorphs(path, bytes)) {
-        tellOf(path, std::to_string(morphs) + " morph controllers are left out: meshes stay as "
-                                              "they are at rest");
+        warn(path, std::to_string(morphs) + " morph controllers are not supported; ignored");
     }
     importer.SetIOHandler(new EditedFile(path, std::move(bytes)));
 }
 
 // --- the file ---
-
-/// Refuses files that Assimp would hang on or would probe. For a file with no extension, an unknown
-/// one or one that is read here by another reader, it asks each of its readers whether they
-/// recognise the first bytes, and some read beyond those.
-void checkBefore(const std::string& path) {
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    // BVH files are read by readBvh(): Assimp trusts the declared number of frames.
-    if (extension == "bvh")
-        failFile(path, "no face in a BVH file: it holds a skeleton and no mesh with bones");
-    if (!assimpReads(path))
-        failFile(path, extension.empty()
-                           ? std::string("its name has no extension, expected that of its format")
-                           : "files named " + inQuotes("." + extension) +
-                                 " are not read for this, expected .bvh, .fbx, .glb or another "
-                                 "that Assimp reads");
-}
 
 /// In OSG's world, Z is up and a figure faces -Y. Assimp converts most formats to Y up, but leaves
 /// FBX files in the axes that they declare, and SMD files in Z up.
@@ -608,7 +591,6 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     SourceScene result;
     result.bytes = requireReadable(path, limits);
-    checkBefore(path);
     editFile(path, limits, importer);
     const aiScene* scene = nullptr;
     std::string reason;
@@ -621,7 +603,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     if (scene == nullptr || scene->mRootNode == nullptr)
         failFile(path, reason.empty() ? "cannot be read" : reason);
     for (unsigned m = 0; m < scene->mNumMeshes; ++m)
-        if (scene->mMeshes[m] == nullptr) failFile(path, "Assimp reads a mesh that is not there");
+        if (scene->mMeshes[m] == nullptr) failFile(path, "Assimp returned a null mesh");
     readNodes(*scene, path, limits, result);
     readMaterials(*scene, path, result);
     MorphReader morphs;
@@ -635,15 +617,10 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
         MorphReader::addTracks(*scene->mAnimations[a], result, animation);
         result.animations.push_back(std::make_shared<const SourceAnimation>(std::move(animation)));
     }
-    morphs.tell(path);
+    morphs.warnLosses(path);
     result.toWorld = toWorld(*scene, path);
     result.metresPerUnit = metresPerUnit(*scene, path);
     return result;
-}
-
-bool assimpReads(const std::string& path) {
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
 }
 
 } // namespace osgSkin

@@ -10,12 +10,9 @@
 
 namespace osgSkin {
 
-/// Whether Assimp has a reader for this file extension.
-bool assimpReads(const std::string& path);
-
 /// Reads a file by Assimp without post-processing: nothing is triangulated, joined or reordered.
 ///
-/// \param path of a file for which assimpReads() is true
+/// \param path of a file whose extension Assimp has a reader for
 /// \param limits on its size and depth
 /// \throw osgSkin::Error with the file and Assimp's reason
 SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/BvhFile.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/GlmTypes>
 
@@ -236,13 +236,14 @@ private:
         joint.name = std::string(_words.jointName());
         joint.parent = _open.empty() ? -1 : _open.back().joint;
         if (!_names.insert(joint.name).second)
-            _words.fail("second joint called " + inQuotes(joint.name) + ", expected unique names");
+            _words.fail("a second joint called " + inQuotes(joint.name) +
+                        ", expected unique names");
         if (_open.size() >= _limits.depth) // scene graphs are traversed recursively
             _words.fail("joint " + inQuotes(joint.name) + " is nested more than " +
                         std::to_string(_limits.depth) + " deep (option maxDepth)");
         if (_file.joints.size() >= _limits.joints)
-            _words.fail("joint " + inQuotes(joint.name) + " is one of more than " +
-                        std::to_string(_limits.joints) + " (option maxJoints)");
+            _words.fail("joint " + inQuotes(joint.name) + " exceeds the limit of " +
+                        std::to_string(_limits.joints) + " joints (option maxJoints)");
         _words.expect("{");
         _open.push_back({static_cast<int>(_file.joints.size())});
         _file.joints.push_back(std::move(joint));
@@ -292,8 +293,8 @@ private:
             joint().channels.push_back(channel);
         }
         if (rotations > 3 || positions.size() + rotations != count)
-            _words.fail(owner() + " has CHANNELS of another kind than supported, expected up to "
-                                  "three rotations, and each position once at most");
+            _words.fail(owner() + " has unsupported CHANNELS, expected up to three rotations, and "
+                                  "each position at most once");
     }
 
     BvhTokens& _words;
@@ -309,8 +310,8 @@ void readBvhHierarchy(BvhTokens& words, const ReadLimits& limits, BvhFile& file)
     Reader(words, limits, file).run();
 }
 
-constexpr std::size_t mostFrames = 16'777'216; // more than a day at 120 a second
-constexpr double shortestFrame = 1e-6;         // seconds: a million frames a second
+constexpr std::size_t kMaxFrames = 16'777'216; // more than a day at 120 a second
+constexpr double kMinFrameTime = 1e-6;         // seconds: a million frames a second
 constexpr double kOtherwise = 1.0 / 30.0;      // seconds
 constexpr double kSlowFrame = 1.0;             // seconds; a longer time may be in milliseconds
 
@@ -328,7 +329,7 @@ double readFrameTime(BvhTokens& words, std::size_t frames) {
     if (words.isAtLineEnd()) words.fail("the frame time is missing" + expected);
     const double result = words.number("the frame time");
     if (frames <= 1 && result == 0.0) return kOtherwise;
-    if (!(result >= shortestFrame))
+    if (!(result >= kMinFrameTime))
         words.fail("the frame time is " + std::to_string(result) + expected);
     return result;
 }
@@ -375,10 +376,9 @@ void checkRows(const std::vector<Row>& rows, const BvhTokens& words, const std::
                    " frame(s), expected the declared " + std::to_string(file.frames));
     // Some recorders count frames from 0, and editors append lists of key frames.
     if (rows.size() > file.frames)
-        tellOf(path, "line " + std::to_string(rows[file.frames].line) + ": " +
-                         std::to_string(rows.size() - file.frames) +
-                         " line(s) beyond the declared " + std::to_string(file.frames) +
-                         " frames, skipped");
+        warn(path, "line " + std::to_string(rows[file.frames].line) + ": " +
+                       std::to_string(rows.size() - file.frames) + " line(s) beyond the declared " +
+                       std::to_string(file.frames) + " frames ignored");
 }
 
 /// Reads the MOTION into `file`, whose joints are known, up to the end of the file: frame time,
@@ -389,14 +389,14 @@ void readBvhFrames(BvhTokens& words, const std::string& path, BvhFile& file) {
     words.expect("MOTION");
     words.expect("Frames");
     words.expect(":");
-    file.frames = words.count("the number of frames", mostFrames);
+    file.frames = words.count("the number of frames", kMaxFrames);
     words.expect("Frame");
     words.expect("Time");
     words.expect(":");
     file.frameTime = readFrameTime(words, file.frames);
     if (file.frameTime > kSlowFrame && file.frames > 1)
-        tellOf(path, "a frame takes " + std::to_string(file.frameTime) +
-                         " seconds; is its \"Frame Time\" in milliseconds?");
+        warn(path, "a frame takes " + std::to_string(file.frameTime) +
+                       " seconds; is its \"Frame Time\" in milliseconds?");
     checkRows(readRows(words, file), words, path, file);
     file.values.resize(file.frames * file.channels);
 }
@@ -415,11 +415,11 @@ BvhFile readBvh(const std::string& path, const ReadLimits& limits) {
     readBvhHierarchy(words, limits, file);
     readBvhFrames(words, path, file);
     // A joint without channels takes memory in every frame, but no bytes in the file.
-    const std::size_t most = limits.samplesOf(text.size());
-    if (file.frames > most / file.joints.size())
+    const std::size_t limit = limits.samplesOf(text.size());
+    if (file.frames > limit / file.joints.size())
         failFile(path, std::to_string(file.frames) + " frames of " +
                            std::to_string(file.joints.size()) + " joints, expected at most " +
-                           std::to_string(most) + " rotations (option maxSamples)");
+                           std::to_string(limit) + " rotations (option maxSamples)");
     return file;
 }
 

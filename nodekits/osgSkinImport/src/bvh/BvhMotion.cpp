@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/BvhMotion.h"
 
-#include "scene/RootMotion.h"
+#include "scene/RootJoint.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -116,7 +116,7 @@ Motion makeMotion(const BvhFile& file, const std::string& path) {
 
     Motion motion;
     ReducedSkeleton carried(skeleton, root);
-    noticeUnusedMoves(skeleton, moved, carried, path);
+    warnUnusedMoves(skeleton, moved, carried, path);
     motion.skeleton = std::move(carried.rest);
     motion.frameTime = file.frameTime;
     motion.frames = file.frames;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfDocument.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <algorithm>
 #include <cstring>
@@ -90,22 +90,22 @@ GltfAccessors::GltfAccessors(const GltfFile& file) : _file(file) {
         known.normalised = from.value("normalized", false);
         known.stored = from.contains("bufferView");
         known.sparse = from.contains("sparse");
-        known.wrong = wrongWith(from, known);
+        known.error = findError(from, known);
         _accessors.push_back(std::move(known));
     });
 }
 
-std::string GltfAccessors::beyondView(const json& view, std::size_t offset, std::size_t elements,
-                                      std::size_t bytes, bool packed) const {
+std::string GltfAccessors::viewError(const json& view, std::size_t offset, std::size_t elements,
+                                     std::size_t bytes, bool packed) const {
     if (!view.is_number_unsigned() || view.get<std::size_t>() >= _views.size())
-        return "a buffer view that is there";
+        return "an existing buffer view";
     const View& source = _views[view.get<std::size_t>()];
     const std::string* const content = _file.buffers[source.buffer].get();
     const std::size_t buffer = content == nullptr ? 0 : content->size();
     if (source.offset > buffer || source.length > buffer - source.offset)
         return "a buffer view within its buffer";
     const std::size_t given = packed ? 0 : source.stride;
-    if (given != 0 && given < bytes) return "a stride of an element at least";
+    if (given != 0 && given < bytes) return "a stride of at least one element";
     const std::size_t stride = given == 0 ? bytes : given;
     if (elements == 0 || bytes == 0) return {};
     if (offset > source.length || bytes > source.length - offset ||
@@ -121,7 +121,7 @@ std::string_view GltfAccessors::bytesOf(std::size_t view) const {
     return std::string_view(*content).substr(source.offset, source.length);
 }
 
-std::string GltfAccessors::wrongWith(const json& from, GltfAccessor& known) const {
+std::string GltfAccessors::findError(const json& from, GltfAccessor& known) const {
     const std::size_t component = componentSize(known.component), width = known.width;
     if (component == 0) return "a component type of 5120 to 5126";
     if (width == 0) return "a type SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4";
@@ -130,38 +130,38 @@ std::string GltfAccessors::wrongWith(const json& from, GltfAccessor& known) cons
     if (known.stored) {
         const json& view = from.at("bufferView");
         known.offset = sizeOf(from, "byteOffset");
-        std::string wrong = beyondView(view, known.offset, known.count, component * width, false);
-        if (!wrong.empty()) return wrong;
+        std::string error = viewError(view, known.offset, known.count, component * width, false);
+        if (!error.empty()) return error;
         known.view = view.get<std::size_t>();
     } else if (known.count > 2 * _file.limits.samplesOf(_file.allBytes())) {
-        return "no more zeros than the file has room for (option maxSamples)";
+        return "fewer zeros for the file's size (option maxSamples)";
     }
     if (!known.sparse) return {};
     const json& sparse = from.at("sparse");
-    const json &places = sparse.at("indices"), &values = sparse.at("values");
+    const json &indices = sparse.at("indices"), &values = sparse.at("values");
     known.changes = sizeOf(sparse, "count");
-    known.indexComponent = places.at("componentType").get<int>();
+    known.indexComponent = indices.at("componentType").get<int>();
     if (known.indexComponent != kUByte && known.indexComponent != kUShort &&
         known.indexComponent != kUInt)
         return "sparse indices of the component type 5121, 5123 or 5125";
-    known.indexOffset = sizeOf(places, "byteOffset");
-    std::string wrong = beyondView(places.at("bufferView"), known.indexOffset, known.changes,
-                                   componentSize(known.indexComponent), true);
-    if (!wrong.empty()) return wrong;
-    known.indexView = places.at("bufferView").get<std::size_t>();
+    known.indexOffset = sizeOf(indices, "byteOffset");
+    std::string error = viewError(indices.at("bufferView"), known.indexOffset, known.changes,
+                                  componentSize(known.indexComponent), true);
+    if (!error.empty()) return error;
+    known.indexView = indices.at("bufferView").get<std::size_t>();
     known.changeOffset = sizeOf(values, "byteOffset");
-    wrong = beyondView(values.at("bufferView"), known.changeOffset, known.changes,
-                       component * width, true);
-    if (wrong.empty()) known.changeView = values.at("bufferView").get<std::size_t>();
-    return wrong;
+    error = viewError(values.at("bufferView"), known.changeOffset, known.changes, component * width,
+                      true);
+    if (error.empty()) known.changeView = values.at("bufferView").get<std::size_t>();
+    return error;
 }
 
 std::size_t GltfAccessors::indexOf(const json& value, const std::string& where) const {
     const bool isThere = value.is_number_unsigned() && value.get<std::size_t>() < _accessors.size();
     const std::size_t index =
         isThere ? value.get<std::size_t>() : _file.indexOf(value, "accessors", where);
-    const std::string& wrong = _accessors[index].wrong;
-    if (!wrong.empty()) _file.fail("accessors[" + std::to_string(index) + "], " + where, wrong);
+    const std::string& error = _accessors[index].error;
+    if (!error.empty()) _file.fail("accessors[" + std::to_string(index) + "], " + where, error);
     return index;
 }
 

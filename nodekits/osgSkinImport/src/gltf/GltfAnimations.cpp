@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfDocument.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/GlmTypes>
 

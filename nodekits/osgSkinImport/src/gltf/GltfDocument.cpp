@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfDocument.h"
 
-#include "text/FileText.h"
-#include "text/UniqueName.h"
+#include "files/FileText.h"
+#include "files/UniqueName.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -46,12 +46,12 @@ public:
         readAnimations();
         _file.checkEntries();
         if (_unfinished > 0)
-            tellOf(_file.path, "corners that make no whole triangle are left out, of " +
-                                   std::to_string(_unfinished) + " of the meshes' primitives");
+            warn(_file.path,
+                 "incomplete triangles ignored in " + std::to_string(_unfinished) + " primitives");
         if (_placedTwice > 0)
-            tellOf(_file.path,
-                   "translations, rotations and scales beside a matrix are left out, of " +
-                       std::to_string(_placedTwice) + " of the nodes");
+            warn(_file.path, std::to_string(_placedTwice) +
+                                 " nodes have a matrix and a translation, rotation or scale; the "
+                                 "matrix is used");
     }
 
 private:
@@ -207,8 +207,8 @@ private:
         if (found == extensions->end()) return;
         GltfPrimitive::Draco draco;
         draco.view = _file.indexOf(found->at("bufferView"), "bufferViews", where);
-        const std::string wrong = _accessors.beyondView(found->at("bufferView"), 0, 0, 0, true);
-        if (!wrong.empty()) _file.fail(where + ".extensions", wrong);
+        const std::string error = _accessors.viewError(found->at("bufferView"), 0, 0, 0, true);
+        if (!error.empty()) _file.fail(where + ".extensions", error);
         for (const auto& [name, id] : found->at("attributes").items())
             if (from.at("attributes").contains(name))
                 draco.ids[name] = _file.index(id, kFarthest, where + ".extensions");
@@ -307,7 +307,7 @@ private:
         _file.forEach("nodes", [&](const json& from, const std::string& where) {
             GltfNode& node = nodes[index];
             node.name = nameOf(from);
-            readPlace(from, where, node);
+            readTransform(from, where, node);
             node.weights = _file.weights(from, where);
             node.hasWeights = from.contains("weights") && from.at("weights").is_array();
             if (from.contains("mesh"))
@@ -346,7 +346,7 @@ private:
         checkDepths();
     }
 
-    void readPlace(const json& from, const std::string& where, GltfNode& node) {
+    void readTransform(const json& from, const std::string& where, GltfNode& node) {
         const std::vector<double> matrix = _file.numbers(from, "matrix", 16, where);
         node.translation = _file.numbers(from, "translation", 3, where);
         node.rotation = _file.numbers(from, "rotation", 4, where);
@@ -364,9 +364,9 @@ private:
         }
         makeUnit(node.rotation);
         // Clamp scales of 0, which hide a part, so that the joint's matrix stays invertible.
-        constexpr double kLeast = 1e-5;
+        constexpr double kMinScale = 1e-5;
         for (double& scale : node.scale)
-            if (std::abs(scale) < kLeast) scale = std::copysign(kLeast, scale);
+            if (std::abs(scale) < kMinScale) scale = std::copysign(kMinScale, scale);
         // In single precision, like the file's numbers.
         glm::mat3 axes(1.0f);
         if (!node.rotation.empty())
@@ -393,20 +393,20 @@ private:
     void checkDepths() const {
         const std::size_t count = _document.nodes.size();
         std::vector<std::size_t> depths(count, 0); // 0: not known yet
-        std::vector<std::size_t> way;
+        std::vector<std::size_t> path;
         for (std::size_t n = 0; n < count; ++n) {
-            way.clear();
+            path.clear();
             GltfIndex at = n;
-            while (at && depths[*at] == 0 && way.size() <= count) {
-                way.push_back(*at);
+            while (at && depths[*at] == 0 && path.size() <= count) {
+                path.push_back(*at);
                 at = _document.nodes[*at].parent;
             }
             const std::string where = "nodes[" + std::to_string(n) + "]";
-            if (way.size() > count) _file.fail(where, "a tree, found a recursive reference");
+            if (path.size() > count) _file.fail(where, "a tree, found a recursive reference");
             std::size_t depth = at ? depths[*at] : 0;
-            while (!way.empty()) {
-                depths[way.back()] = ++depth;
-                way.pop_back();
+            while (!path.empty()) {
+                depths[path.back()] = ++depth;
+                path.pop_back();
             }
             if (depth > _file.limits.depth)
                 _file.fail(where, "a node nested at most " + std::to_string(_file.limits.depth) +
@@ -460,9 +460,9 @@ private:
                 known.output = _accessors.indexOf(sampler.at("output"), output);
                 _accessors.requireType(known.input, {"SCALAR"}, input);
                 keys.push_back(_accessors[known.input].count + _accessors[known.output].count);
-                const auto way = sampler.find("interpolation");
-                if (way != sampler.end()) {
-                    const std::string& name = way->get_ref<const std::string&>();
+                const auto interpolation = sampler.find("interpolation");
+                if (interpolation != sampler.end()) {
+                    const std::string& name = interpolation->get_ref<const std::string&>();
                     if (name == "STEP")
                         known.interpolation = Interpolation::Step;
                     else if (name == "CUBICSPLINE")
@@ -502,13 +502,11 @@ private:
             _document.animations.push_back(std::move(animation));
         });
         if (movedTwice > 0)
-            tellOf(_file.path, "of animation channels that move the same of a node in one "
-                               "animation the last counts; left out are " +
-                                   std::to_string(movedTwice));
+            warn(_file.path, "duplicate channels for one node property; the last is used, " +
+                                 std::to_string(movedTwice) + " are ignored");
         if (!otherPath.empty())
-            tellOf(_file.path, "animation channels are left out whose path is none of "
-                               "translation, rotation, scale and weights, the first " +
-                                   inQuotes(otherPath));
+            warn(_file.path, "unsupported channel paths ignored, the first " + inQuotes(otherPath) +
+                                 "; supported: translation, rotation, scale and weights");
     }
 
     GltfDocument& _document;

@@ -35,7 +35,7 @@ struct GltfAccessor {
     std::size_t changes = 0; ///< number of replaced elements, if sparse
     int indexComponent = 0;
     std::size_t indexView = 0, indexOffset = 0, changeView = 0, changeOffset = 0;
-    std::string wrong; ///< why it cannot be read; empty if it can
+    std::string error; ///< why it cannot be read; empty if it can
 
     /// Whether the file contains its values, not only in compressed form by an extension.
     bool hasValues() const { return stored || sparse; }
@@ -73,13 +73,13 @@ public:
     /// All numbers of joints or indices, as integers even if the file declares them normalised.
     std::vector<std::uint32_t> integers(std::size_t accessor) const;
 
-    /// The bytes of a buffer view that beyondView() accepts.
+    /// The bytes of a buffer view that viewError() accepts.
     std::string_view bytesOf(std::size_t view) const;
 
-    /// Why `elements` of `bytes` each do not fit in a buffer view, `packed` or with the view's
-    /// stride; empty if they fit.
-    std::string beyondView(const nlohmann::json& view, std::size_t offset, std::size_t elements,
-                           std::size_t bytes, bool packed) const;
+    /// The reason why `elements` of `bytes` each do not fit in a buffer view, `packed` or with the
+    /// view's stride; empty if they fit.
+    std::string viewError(const nlohmann::json& view, std::size_t offset, std::size_t elements,
+                          std::size_t bytes, bool packed) const;
 
     struct View {
         std::size_t buffer = 0, offset = 0, length = 0, stride = 0; ///< stride 0: packed
@@ -87,7 +87,7 @@ public:
     const View& view(std::size_t index) const { return _views[index]; }
 
 private:
-    std::string wrongWith(const nlohmann::json& from, GltfAccessor& known) const;
+    std::string findError(const nlohmann::json& from, GltfAccessor& known) const;
     template <typename Result>
     void read(std::size_t view, std::size_t offset, int component, std::size_t width,
               std::size_t count, bool packed, std::vector<Result>& result) const;

@@ -3,7 +3,7 @@
 // files.
 #include "gltf/GltfDocument.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #ifdef OSGSKIN_HAS_DRACO
 #include <draco/compression/decode.h>

@@ -2,8 +2,8 @@
 // Facial expressions of VRM files: BlendShapeProxy of VRM 0, expressions of VRM 1.
 #include "gltf/GltfDocument.h"
 
-#include "text/FileText.h"
-#include "text/UniqueName.h"
+#include "files/FileText.h"
+#include "files/UniqueName.h"
 
 #include <cmath>
 
@@ -41,11 +41,11 @@ public:
                 readSecond(name, expression);
         const std::string& path = _document.file.path;
         if (_coloured > 0)
-            tellOf(path, "changes of colours and textures are left out, of " +
-                             std::to_string(_coloured) + " expressions");
+            warn(path, std::to_string(_coloured) +
+                           " expressions change colours or textures, which is not supported");
         if (_lost > 0)
-            tellOf(path, std::to_string(_lost) +
-                             " parts of expressions are left out, which are no morph target");
+            warn(path,
+                 std::to_string(_lost) + " parts of expressions name no morph target; ignored");
     }
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfFile.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
@@ -55,8 +55,7 @@ public:
         here.key = &member->first;
         here.member = &member->second;
         if (isNew) return true;
-        failFile(_path,
-                 "malformed glTF: " + place() + " is there twice, expected each member once");
+        failFile(_path, "malformed glTF: " + place() + " is a duplicate member");
     }
 
     bool parse_error(std::size_t byte, const std::string&, const json::exception& error) override {
@@ -95,11 +94,11 @@ private:
         return here.member;
     }
     bool open(json value) {
-        constexpr std::size_t kDeepest =
+        constexpr std::size_t kMaxDepth =
             64; // as in checkJsonDepth(), which would scan the text again
-        if (_open.size() >= kDeepest)
-            failFile(_path, "lists and objects stand in each other more than " +
-                                std::to_string(kDeepest) + " deep");
+        if (_open.size() >= kMaxDepth)
+            failFile(_path, "lists and objects are nested more than " + std::to_string(kMaxDepth) +
+                                " deep");
         _open.push_back({put(std::move(value)), nullptr, nullptr});
         return true;
     }
@@ -241,15 +240,15 @@ std::string GltfFile::readChunks(std::string_view all, std::string& binary, bool
         failFile(path, "malformed glTF: " + std::to_string(all.size()) +
                            " bytes, expected a header of " + std::to_string(kHeader));
     if (numberAt(all, 4) != 2)
-        failFile(path, "no glTF 2 file: a binary one of version " +
-                           std::to_string(numberAt(all, 4)) + ", expected 2");
-    const std::size_t told = numberAt(all, 8);
+        failFile(path, "not a glTF 2 file: binary version " + std::to_string(numberAt(all, 4)) +
+                           ", expected 2");
+    const std::size_t declared = numberAt(all, 8);
     std::string text;
     for (std::size_t at = kHeader; at + kChunkHeader <= all.size();) {
         const std::size_t size = numberAt(all, at);
         const std::string_view type = all.substr(at + 4, 4);
         if (size > all.size() - at - kChunkHeader) {
-            if (at >= told) break;
+            if (at >= declared) break;
             failFile(path, "malformed glTF: the chunk at byte " + std::to_string(at) + " has " +
                                std::to_string(size) + " bytes, expected at most the " +
                                std::to_string(all.size() - at - kChunkHeader) +
@@ -272,15 +271,15 @@ void GltfFile::requireSecond() const {
     const auto none = json.end();
     const auto asset = json.is_object() ? json.find("asset") : none;
     if (asset == none || !asset->is_object())
-        failFile(path, "no glTF 2 file: expected an object \"asset\"");
+        failFile(path, "not a glTF 2 file: expected an object \"asset\"");
     for (const char* key : {"version", "minVersion"}) {
         const auto found = asset->find(key);
         const bool isThere = found != asset->end();
         if (!isThere && std::string_view(key) == "minVersion") continue;
-        const std::string told = isThere && found->is_string() ? found->get<std::string>() : "";
-        if (told.rfind('2', 0) != 0)
-            failFile(path, std::string("no glTF 2 file: asset.") + key + " is " + inQuotes(told) +
-                               ", expected \"2.0\"");
+        const std::string version = isThere && found->is_string() ? found->get<std::string>() : "";
+        if (version.rfind('2', 0) != 0)
+            failFile(path, std::string("not a glTF 2 file: asset.") + key + " is " +
+                               inQuotes(version) + ", expected \"2.0\"");
     }
 }
 
@@ -378,19 +377,20 @@ std::vector<double> GltfFile::weights(const nlohmann::json& from, const std::str
 void GltfFile::take(std::size_t elements, const std::string& where) {
     _elements += elements;
     if (_elements > 2 * limits.samplesOf(allBytes()))
-        fail(where,
-             "no more vertices, corners and keys than the file's size allows, each as often as "
-             "it is named (option maxSamples)");
+        fail(
+            where,
+            "fewer vertices, corners and keys for the file's size, counted each time they are used "
+            "(option maxSamples)");
 }
 
 void GltfFile::checkEntries() const {
     constexpr std::size_t kSamples = 20; // samples per entry
-    const std::size_t most = limits.samplesOf(allBytes()) / kSamples;
+    const std::size_t limit = limits.samplesOf(allBytes()) / kSamples;
     std::size_t all = _entries;
     for (const char* list : {"nodes", "scenes", "materials", "textures", "images", "samplers"})
         all += size(list);
-    if (all > most)
-        fail("nodes, bones, materials and channels", "at most " + std::to_string(most) +
+    if (all > limit)
+        fail("nodes, bones, materials and channels", "at most " + std::to_string(limit) +
                                                          ", found " + std::to_string(all) +
                                                          " (option maxSamples)");
 }

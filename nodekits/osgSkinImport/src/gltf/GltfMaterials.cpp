@@ -2,7 +2,7 @@
 // The appearance of surfaces in a glTF file: materials, textures, samplers and images.
 #include "gltf/GltfDocument.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 
@@ -71,7 +71,7 @@ public:
         _file.forEach("materials", [&](const json& from, const std::string& where) {
             readMaterial(from, where);
         });
-        tellOfUnusedTextures(_file.path, _unused);
+        warnUnusedTextures(_file.path, _unused);
     }
 
 private:
@@ -93,9 +93,9 @@ private:
             const std::string mime = from.value("mimeType", "");
             _imageOf.push_back(_document.images.size());
             if (from.contains("bufferView")) {
-                const std::string wrong =
-                    _accessors.beyondView(from.at("bufferView"), 0, 0, 0, true);
-                if (!wrong.empty()) _file.fail(where, wrong);
+                const std::string error =
+                    _accessors.viewError(from.at("bufferView"), 0, 0, 0, true);
+                if (!error.empty()) _file.fail(where, error);
                 const auto number = from.at("bufferView").get<std::size_t>();
                 const GltfAccessors::View& view = _accessors.view(number);
                 const auto [found, isNew] =
@@ -208,48 +208,48 @@ private:
             if (pbr != from.end()) _drawn.insert(&*pbr); // by other means
         }
         GltfMaterial result;
-        Material& look = result.source.look;
+        Material& surface = result.source.material;
         result.source.isLinear = true;
-        look.diffuse = {toSrgb(float(base[0])), toSrgb(float(base[1])), toSrgb(float(base[2])),
-                        static_cast<float>(base[3])};
+        surface.diffuse = {toSrgb(float(base[0])), toSrgb(float(base[1])), toSrgb(float(base[2])),
+                           static_cast<float>(base[3])};
         if (!isGlowOnly && !emissive.empty())
-            look.emission = {toSrgb(float(emissive[0])), toSrgb(float(emissive[1])),
-                             toSrgb(float(emissive[2])), 1.0f};
-        setRoughness(static_cast<float>(roughness), look);
-        look.alpha = Material::Alpha::Opaque;
+            surface.emission = {toSrgb(float(emissive[0])), toSrgb(float(emissive[1])),
+                                toSrgb(float(emissive[2])), 1.0f};
+        setRoughness(static_cast<float>(roughness), surface);
+        surface.alpha = Material::Alpha::Opaque;
         if (from.contains("alphaMode")) {
             const std::string& mode = from.at("alphaMode").get_ref<const std::string&>();
-            if (mode == "BLEND") look.alpha = Material::Alpha::Blend;
-            if (mode == "MASK") look.alpha = Material::Alpha::Mask;
+            if (mode == "BLEND") surface.alpha = Material::Alpha::Blend;
+            if (mode == "MASK") surface.alpha = Material::Alpha::Mask;
         }
-        look.alphaCutOff = static_cast<float>(_file.number(from, "alphaCutoff", 0.5, where));
-        look.twoSided = from.contains("doubleSided") && from.at("doubleSided").get<bool>();
+        surface.alphaCutOff = static_cast<float>(_file.number(from, "alphaCutoff", 0.5, where));
+        surface.twoSided = from.contains("doubleSided") && from.at("doubleSided").get<bool>();
         if (texture) setTexture(*texture, where, Material::Diffuse, result);
         if (!extensionOf(from, "KHR_materials_unlit")) {
             readMaps(from, where, result);
             countUnused(from);
         }
         const osg::Vec4 none = Material().emission;
-        if (glow && !result.source.textures[Material::Emission].image) look.emission = none;
+        if (glow && !result.source.textures[Material::Emission].image) surface.emission = none;
         _document.materials.push_back(std::move(result));
     }
 
     /// Reads the textures that need shaders.
     void readMaps(const json& from, const std::string& where, GltfMaterial& material) {
-        Material& look = material.source.look;
+        Material& surface = material.source.material;
         if (const json* bumps = memberOf(from, "normalTexture")) {
-            look.normalScale =
+            surface.normalScale =
                 static_cast<float>(_file.number(*bumps, "scale", 1.0, where + ".normalTexture"));
             setTexture(*bumps, where, Material::Normal, material);
         }
         if (const json* shade = memberOf(from, "occlusionTexture")) {
-            look.occlusionStrength = static_cast<float>(
+            surface.occlusionStrength = static_cast<float>(
                 _file.number(*shade, "strength", 1.0, where + ".occlusionTexture"));
             setTexture(*shade, where, Material::Occlusion, material);
         }
         const json* glow = memberOf(from, "emissiveTexture");
         if (!glow || _drawn.count(glow) > 0) return;
-        if (look.emission == Material().emission)
+        if (surface.emission == Material().emission)
             _drawn.insert(glow); // times black
         else
             setTexture(*glow, where, Material::Emission, material);
@@ -293,13 +293,13 @@ private:
         if (!texture.image) return;
         _drawn.insert(&from);
         material.source.textures[map] = {_document.images[*texture.image].uri, texture.image};
-        material.source.look.textures[map] = {nullptr, texture.wrapS, texture.wrapT};
+        material.source.material.textures[map] = {nullptr, texture.wrapS, texture.wrapT};
     }
 
     /// Sets the specular exponent for a highlight of the same width; a rough surface has none.
-    static void setRoughness(float roughness, Material& look) {
-        look.shininess = 2.0f / std::max(1e-6f, std::pow(roughness, 4.0f)) - 2.0f;
-        if (roughness >= 1.0f) look.specular = {0.0f, 0.0f, 0.0f, 1.0f};
+    static void setRoughness(float roughness, Material& surface) {
+        surface.shininess = 2.0f / std::max(1e-6f, std::pow(roughness, 4.0f)) - 2.0f;
+        if (roughness >= 1.0f) surface.specular = {0.0f, 0.0f, 0.0f, 1.0f};
     }
 
     GltfDocument& _document;
@@ -318,11 +318,11 @@ void readMaterials(GltfDocument& document) {
     // The specification's default, for meshes without a material.
     GltfMaterial& last = document.materials.emplace_back();
     last.source.isLinear = true;
-    last.source.look.diffuse = {1.0f, 1.0f, 1.0f, 1.0f};
-    last.source.look.specular = {0.0f, 0.0f, 0.0f, 1.0f};
-    last.source.look.shininess = 0.0f;
-    last.source.look.alpha = Material::Alpha::Opaque;
-    last.source.look.twoSided = false;
+    last.source.material.diffuse = {1.0f, 1.0f, 1.0f, 1.0f};
+    last.source.material.specular = {0.0f, 0.0f, 0.0f, 1.0f};
+    last.source.material.shininess = 0.0f;
+    last.source.material.alpha = Material::Alpha::Opaque;
+    last.source.material.twoSided = false;
 }
 
 } // namespace osgSkin

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfDocument.h"
 
+#include "files/FileText.h"
 #include "scene/SceneMorphs.h"
-#include "text/FileText.h"
 
 #include <osgSkin/GlmTypes>
 
@@ -18,7 +18,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr float kRounding = -1e-3f; ///< the least weight that exporters round from 0
+constexpr float kRounding = -1e-3f; ///< slightly negative weights come from rounding
 constexpr std::size_t kPart = 20;   ///< the cost of a part of an expression, in numbers of targets
 
 std::string number(std::size_t value) {
@@ -80,7 +80,7 @@ public:
         // The default material is last.
         const std::size_t last = materialOf(_document.materials.size() - 1);
         for (const auto& mesh : _plain) mesh->material = last;
-        _names.tell(_file.path);
+        _names.warnRenamed(_file.path);
     }
 
 private:
@@ -178,7 +178,7 @@ private:
     void takeMorph(std::size_t numbers) {
         _morphs -= double(numbers);
         if (_morphs < 0.0)
-            failFile(_file.path, "malformed glTF: expected morph targets of less vertices "
+            failFile(_file.path, "malformed glTF: expected morph targets of fewer vertices "
                                  "(option maxSamples)");
     }
 
@@ -350,9 +350,9 @@ private:
             flat += glm::determinant(glm::dmat3(result[j])) == 0.0;
         }
         if (flat > 0)
-            tellOf(_file.path, "skin " + inQuotes(skin.name) + " has " + number(flat) +
-                                   " inverse bind matrices without an inverse, whose joints are "
-                                   "bound where their nodes stand");
+            warn(_file.path, "skin " + inQuotes(skin.name) + " has " + number(flat) +
+                                 " singular inverse bind matrices; their joints are bound where "
+                                 "their nodes are");
         return result;
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/GltfFile.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #ifdef OSGSKIN_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/ReadGltf.h"
 
+#include "files/FileText.h"
+#include "files/UniqueName.h"
 #include "gltf/GltfDocument.h"
-#include "text/FileText.h"
-#include "text/UniqueName.h"
 
 #include <osg/Math>
-#include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <cstdint>
@@ -60,18 +59,18 @@ void noteExtensions(const GltfFile& file) {
         if (!isHarmless(entry.get_ref<const std::string&>()))
             unknown.insert(entry.get<std::string>());
     if (unknown.size() == 1)
-        tellOf(file.path, "requires the extension " + inQuotes(*unknown.begin()) +
-                              ", which is not known; read without it");
+        warn(file.path, "requires the extension " + inQuotes(*unknown.begin()) +
+                            ", which is not known; read without it");
     if (unknown.size() > 1)
-        tellOf(file.path, "requires " + std::to_string(unknown.size()) + " extensions, " +
-                              inQuotes(*unknown.begin()) +
-                              " among them, which are not known; read without them");
+        warn(file.path, "requires " + std::to_string(unknown.size()) + " extensions, " +
+                            inQuotes(*unknown.begin()) +
+                            " among them, which are not known; read without them");
     const json used = file.json.value("extensionsUsed", none);
     for (const char* missed : kMissed)
         if (std::find(used.begin(), used.end(), missed) != used.end() &&
             std::find(required.begin(), required.end(), missed) == required.end())
-            tellOf(file.path, std::string("uses the extension \"") + missed +
-                                  "\", which is not known; read without it");
+            warn(file.path, std::string("uses the extension \"") + missed +
+                                "\", which is not known; read without it");
 }
 
 /// Whether the figure faces -Z, as in VRM 0, and not +Z, as in glTF.
@@ -127,8 +126,8 @@ std::string nameNodes(GltfDocument& document) {
         if (ranks[n] == 0 && renamed++ == 0) first = nodes[n].name;
     }
     if (renamed > 0)
-        tellOf(document.file.path, "joints are called alike; " + std::to_string(renamed) +
-                                       " got a name of their own, as \"" + first + '"');
+        warn(document.file.path, "joints share names; " + std::to_string(renamed) +
+                                     " were renamed, the first to \"" + first + '"');
     return taken.unique("scene");
 }
 
@@ -263,11 +262,6 @@ void bindRigidParts(const std::set<std::string>& joints, SourceScene& scene) {
 }
 
 } // namespace
-
-bool isGltfName(const std::string& path) {
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return extension == "gltf" || extension == "glb" || extension == "vrm" || extension == "vrma";
-}
 
 SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
     GltfFile file = GltfFile::read(path, limits);

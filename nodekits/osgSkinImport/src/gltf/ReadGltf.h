@@ -10,10 +10,7 @@
 
 namespace osgSkin {
 
-/// Whether a file name has a glTF extension: .gltf, .glb, .vrm or .vrma.
-bool isGltfName(const std::string& path);
-
-/// Reads a glTF file; see isGltfName().
+/// Reads a glTF file (.gltf, .glb, .vrm or .vrma).
 /// \throw osgSkin::Error with the file and the position in it, if it is not glTF 2, violates the
 ///        specification, or uses unsupported compression
 SourceScene readGltf(const std::string& path, const ReadLimits& limits);

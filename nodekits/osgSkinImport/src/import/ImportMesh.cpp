@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportMesh>
 
+#include "files/FileFormat.h"
+#include "files/FileText.h"
 #include "import/ShareScenes.h"
 #include "mesh/FinishMesh.h"
 #include "mesh/MeshFiles.h"
 #include "osg/OsgScene.h"
 #include "scene/SceneMesh.h"
-#include "text/FileText.h"
-
-#include <osgDB/FileNameUtils>
 
 #include <new>
 #include <string>
@@ -17,26 +16,31 @@
 namespace osgSkin {
 namespace {
 
-CornerMesh readOwn(const std::string& format, const std::string& path,
-                   const osgDB::Options* options) {
-    // Assimp's and OSG's OBJ readers reorder the vertices.
-    CornerMesh result = format == "obj"   ? readObjMesh(path, options)
-                        : format == "off" ? readOffMesh(path, options)
-                                          : readPlyMesh(path, options);
-    checkVertices(result, path, ReadLimits::of(options));
-    return result;
-}
-
 CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
-    const std::string format = osgDB::getLowerCaseFileExtension(path);
-    if (format == "skin")
+    CornerMesh result;
+    switch (formatOf(path).reader) {
+    case FileFormat::Obj: // Assimp's and OSG's OBJ readers reorder the vertices
+        result = readObjMesh(path, options);
+        break;
+    case FileFormat::Ply:
+        result = readPlyMesh(path, options);
+        break;
+    case FileFormat::Off:
+        result = readOffMesh(path, options);
+        break;
+    case FileFormat::Bvh:
+        refuse(path, limits, "BVH files have no mesh");
+    case FileFormat::Character:
         failFile(path, "a character, expected a mesh: name the file that its \"mesh\" names");
-    if (format == "obj" || format == "off" || format == "ply")
-        return readOwn(format, path, options);
-    if (!hasSceneReader(path)) return readOsgMesh(path, options);
-    return readSceneMesh(*readSourceScene(path, options), path, options);
+    case FileFormat::Osg:
+        return readOsgMesh(path, options);
+    default:
+        return readSceneMesh(*readSourceScene(path, options), path, options);
+    }
+    checkVertices(result, path, limits);
+    return result;
 }
 
 } // namespace
@@ -50,9 +54,7 @@ ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) 
 }
 
 double importUnit(const std::string& path, const osgDB::Options* options) {
-    const bool isScene = hasSceneReader(path) && !holdsMeshesOnly(path) &&
-                         osgDB::getLowerCaseFileExtension(path) != "bvh";
-    return isScene ? readSourceScene(path, options)->metresPerUnit : 0.0;
+    return formatOf(path).isScene() ? readSourceScene(path, options)->metresPerUnit : 0.0;
 }
 
 } // namespace osgSkin

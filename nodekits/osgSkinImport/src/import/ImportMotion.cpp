@@ -3,14 +3,14 @@
 
 #include "bvh/BvhFile.h"
 #include "bvh/BvhMotion.h"
-#include "gltf/ReadGltf.h"
+#include "files/FileFormat.h"
+#include "files/FileText.h"
 #include "import/ShareScenes.h"
 #include "scene/ClipNames.h"
-#include "scene/RootMotion.h"
+#include "scene/RootJoint.h"
 #include "scene/SceneSkeleton.h"
 #include "scene/SceneTracks.h"
 #include "scene/SourceScene.h"
-#include "text/FileText.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
@@ -187,8 +187,8 @@ std::vector<bool> findMovedJoints(const std::vector<const SourceTrack*>& tracks,
 }
 
 /// Reports the first joint whose track scales it: motions have no scale.
-void noticeScales(const std::vector<const SourceTrack*>& tracks, const SceneSkeleton& skeleton,
-                  const std::string& path) {
+void warnScales(const std::vector<const SourceTrack*>& tracks, const SceneSkeleton& skeleton,
+                const std::string& path) {
     constexpr double kSame = 0.01;
     for (std::size_t j = 0; j < tracks.size(); ++j) {
         if (tracks[j] == nullptr) continue;
@@ -199,8 +199,8 @@ void noticeScales(const std::vector<const SourceTrack*>& tracks, const SceneSkel
             return glm::length(off) > kSame * glm::length(rest);
         };
         if (!std::any_of(keys.begin(), keys.end(), isOther)) continue;
-        tellOf(path, "joint " + inQuotes(skeleton.rest.joints[j].name) +
-                         " is scaled, which motions are read without");
+        warn(path, "joint " + inQuotes(skeleton.rest.joints[j].name) +
+                       " is scaled; motions have no scales");
         return;
     }
 }
@@ -219,8 +219,8 @@ glm::dvec3 localPosition(const SourceTrack* track, const SourceNode& node, const
 glm::dvec3 localScale(const SourceTrack* track, const SourceNode& node) {
     glm::dvec3 result = decompose(node.matrix).scale;
     if (track == nullptr || track->rotations.empty() || track->scales.empty()) return result;
-    const glm::dvec3 told = glm::dvec3(track->scales.front().value);
-    for (int axis = 0; axis < 3; ++axis) result[axis] = std::copysign(result[axis], told[axis]);
+    const glm::dvec3 signs = glm::dvec3(track->scales.front().value);
+    for (int axis = 0; axis < 3; ++axis) result[axis] = std::copysign(result[axis], signs[axis]);
     return result;
 }
 
@@ -239,9 +239,9 @@ glm::dmat4 localMatrix(const SourceTrack* track, const SourceNode& node, const M
 /// Uses the positions of the root only, or of the joint that rootMotionJoint() finds; those of
 /// other joints are dropped, with a notice.
 /// \throw osgSkin::Error with `path` if no track has a key, the key times are invalid, or joints
-///        times frames are more than `mostSamples`.
+///        times frames are more than `maxSamples`.
 Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skeleton,
-                    std::size_t mostSamples, const std::string& path) {
+                    std::size_t maxSamples, const std::string& path) {
     const std::vector<const SourceTrack*> tracks = tracksOf(animation, skeleton);
     const double rate = animation.ticksPerSecond;
     std::vector<double> times;
@@ -256,12 +256,12 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
     if (times.empty()) failFile(path, "no key in its animation, expected at least one");
     const SampleGrid grid(std::move(times));
     if (!(static_cast<double>(grid.samples()) * static_cast<double>(tracks.size()) <=
-          static_cast<double>(mostSamples)))
+          static_cast<double>(maxSamples)))
         failFile(path, "its animation lasts " +
                            std::to_string(grid.step() * double(grid.samples())) + " s, " +
                            std::to_string(grid.samples()) + " frames of " +
                            std::to_string(tracks.size()) + " joints, expected at most " +
-                           std::to_string(mostSamples) + " rotations (option maxSamples)");
+                           std::to_string(maxSamples) + " rotations (option maxSamples)");
 
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
@@ -272,8 +272,8 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
     motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
         failFile(path, "the time between its samples is not positive");
-    noticeUnusedMoves(skeleton.rest, moved, carried, path);
-    noticeScales(tracks, skeleton, path);
+    warnUnusedMoves(skeleton.rest, moved, carried, path);
+    warnScales(tracks, skeleton, path);
 
     const std::size_t joints = tracks.size();
     const ReflectedRotation aboveRoot{rotationOf(skeleton.aboveRoot),
@@ -342,18 +342,17 @@ std::size_t firstClip(const SourceScene& scene, const std::vector<std::string>& 
         if (count++ == 0) first = a;
     }
     if (count > 1)
-        tellOf(path, std::to_string(count) + " animations, of which the first, \"" + names[first] +
-                         "\", is read");
+        warn(path, std::to_string(count) + " animations, of which the first, \"" + names[first] +
+                       "\", is read");
     return first;
 }
 
 Motion readSceneMotion(const std::string& path, const std::string& clip, const ReadLimits& limits,
                        const osgDB::Options* options) {
-    if (holdsMeshesOnly(path)) {
-        requireReadable(path, limits);
-        failFile(path,
-                 "files of this format have no animation; name a motion file of another format");
-    }
+    const FileFormat format = formatOf(path);
+    if (format.hasMesh && !format.hasSkeleton)
+        refuse(path, limits,
+               "files of this format have no animation; name a motion file of another format");
     SourceScene scene = *readSourceScene(path, options); // a copy, whose nodes may change
     if (scene.animations.empty()) failFile(path, "no animation, expected at least one");
     const std::vector<std::string> names = clipNames(scene);
@@ -368,7 +367,7 @@ Motion readSceneMotion(const std::string& path, const std::string& clip, const R
                                  limits.samplesOf(scene.bytes), path);
     validate(motion, path);
     motion.name = names[chosen];
-    motion.yIsUp = isGltfName(path);
+    motion.yIsUp = format.reader == FileFormat::Gltf;
     return motion;
 }
 
@@ -386,7 +385,7 @@ Motion importMotion(const std::string& path, std::size_t skipFrames, const std::
                     const osgDB::Options* options) try {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
-    const bool isBvh = osgDB::getLowerCaseFileExtension(path) == "bvh";
+    const bool isBvh = formatOf(path).reader == FileFormat::Bvh;
     Motion motion =
         isBvh ? readBvhMotion(path, clip, limits) : readSceneMotion(path, clip, limits, options);
     if (isBvh || clip.empty()) motion.name = osgDB::getStrippedName(path);

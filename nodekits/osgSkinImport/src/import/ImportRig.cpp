@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ImportRig>
 
+#include "files/FileFormat.h"
+#include "files/FileText.h"
 #include "import/ShareScenes.h"
 #include "mesh/FinishMesh.h"
 #include "scene/ClipNames.h"
 #include "scene/SceneMesh.h"
 #include "scene/SceneSkeleton.h"
-#include "text/FileText.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
@@ -23,7 +24,6 @@
 #include <osgAnimation/StackedScaleElement>
 #include <osgAnimation/StackedTranslateElement>
 #include <osgAnimation/UpdateBone>
-#include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <cmath>
@@ -177,9 +177,9 @@ void addChannel(osgAnimation::Animation& animation, const std::string& target,
 
 /// Clamps scales of 0, which hide a part, so that the joint's matrix stays invertible.
 osg::Vec3 clampedTinyScale(osg::Vec3 scale) {
-    constexpr float kLeast = 1e-5f;
+    constexpr float kMinScale = 1e-5f;
     for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(scale[axis]) < kLeast) scale[axis] = std::copysign(kLeast, scale[axis]);
+        if (std::abs(scale[axis]) < kMinScale) scale[axis] = std::copysign(kMinScale, scale[axis]);
     return scale;
 }
 
@@ -228,14 +228,14 @@ bool isSame(const SourceMorphTrack& a, const SourceMorphTrack& b) {
 }
 
 /// The first track of each driven morph target.
-/// \param[out] torn gets the targets that have other tracks, too
+/// \param[out] differing targets with other tracks as well
 MorphTracks morphTracksOf(const SourceAnimation& animation, const DrivenMorphs& driven,
-                          std::set<std::string>& torn) {
+                          std::set<std::string>& differing) {
     MorphTracks result;
     for (const SourceMorphTrack& track : animation.morphs) {
         if (driven.count(track.morph) == 0) continue;
         const auto [known, isNew] = result.emplace(track.morph, &track);
-        if (!isNew && !isSame(*known->second, track)) torn.insert(track.morph);
+        if (!isNew && !isSame(*known->second, track)) differing.insert(track.morph);
     }
     return result;
 }
@@ -294,28 +294,29 @@ std::vector<bool> movedJoints(const SourceScene& scene, const SceneSkeleton& joi
 /// \throw osgSkin::Error if a key is not finite
 osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkeleton& joints,
                                       const std::vector<bool>& moves, const ImportedMesh& body,
-                                      std::size_t mostSamples, const std::string& path) {
+                                      std::size_t maxSamples, const std::string& path) {
     const DrivenMorphs driven = drivenMorphs(scene, body);
     const std::size_t moved =
         static_cast<std::size_t>(std::count(moves.begin(), moves.end(), true)) + driven.size();
     // Every clip has channels for all joints and morph targets that any clip moves.
-    if (moved * scene.animations.size() > mostSamples / 8)
+    if (moved * scene.animations.size() > maxSamples / 8)
         failFile(path, std::to_string(scene.animations.size()) + " animations of " +
                            std::to_string(moved) + " joints and morph targets, expected at most " +
-                           std::to_string(mostSamples / 8) + " tracks (option maxSamples)");
+                           std::to_string(maxSamples / 8) + " tracks (option maxSamples)");
     osgAnimation::AnimationList result;
     const std::vector<std::string> names = clipNames(scene);
-    std::set<std::string> torn;
+    std::set<std::string> differing;
     for (std::size_t a = 0; a < scene.animations.size(); ++a) {
-        const MorphTracks morphs = morphTracksOf(*scene.animations[a], driven, torn);
+        const MorphTracks morphs = morphTracksOf(*scene.animations[a], driven, differing);
         if (const auto clip =
                 makeClip(*scene.animations[a], names[a], joints, moves, driven, morphs, path))
             result.push_back(clip);
     }
-    if (!torn.empty())
-        tellOf(path, std::to_string(torn.size()) + " morph targets, " + inQuotes(*torn.begin()) +
-                         " among them, have different weights on several meshes in a clip; those "
-                         "of the first mesh are played");
+    if (!differing.empty())
+        warn(path, std::to_string(differing.size()) + " morph targets, " +
+                       inQuotes(*differing.begin()) +
+                       " among them, have different weights on several meshes in a clip; those "
+                       "of the first mesh are played");
     return result;
 }
 
@@ -333,22 +334,18 @@ std::string motionHint(const std::string& path) {
 
 } // namespace
 
-bool isReadByAssimp(const std::string& path) {
-    return hasSceneReader(path);
+bool hasImporter(const std::string& path) {
+    return formatOf(path).reader < FileFormat::Osg;
 }
 
 ImportedRig importRig(const std::string& path, const osgDB::Options* options) try {
     const ReadLimits limits = ReadLimits::of(options);
     limits.checkFormat(path);
     const std::string none = "no mesh with bones, expected a rigged character";
-    if (holdsMeshesOnly(path)) {
-        requireReadable(path, limits);
-        failFile(path, none + "; a .skin file can name a skeleton for it, or fit one");
-    }
-    if (osgDB::getLowerCaseFileExtension(path) == "bvh") {
-        requireReadable(path, limits);
-        failFile(path, none + motionHint(path));
-    }
+    const FileFormat format = formatOf(path);
+    if (!format.hasSkeleton && format.hasMesh)
+        refuse(path, limits, none + "; a .skin file can name a skeleton for it, or fit one");
+    if (format.reader == FileFormat::Bvh) refuse(path, limits, none + motionHint(path));
     const std::shared_ptr<const SourceScene> source = readSourceScene(path, options);
     const SourceScene& scene = *source;
     if (!isRigged(scene)) failFile(path, none + (scene.animations.empty() ? "" : motionHint(path)));

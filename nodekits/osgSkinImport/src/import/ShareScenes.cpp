@@ -2,6 +2,8 @@
 #include <osgSkinImport/ShareScenes>
 
 #include "assimp/AssimpScene.h"
+#include "files/FileFormat.h"
+#include "files/FileText.h"
 #include "gltf/ReadGltf.h"
 #include "import/ShareScenes.h"
 
@@ -9,7 +11,6 @@
 
 #include <osg/Object>
 #include <osg/UserDataContainer>
-#include <osgDB/FileNameUtils>
 
 #include <filesystem>
 #include <map>
@@ -46,7 +47,18 @@ protected:
 };
 
 Scene readFile(const std::string& path, const ReadLimits& limits) {
-    SourceScene scene = isGltfName(path) ? readGltf(path, limits) : readAssimpScene(path, limits);
+    const FileFormat format = formatOf(path);
+    // Asked for a file that it has no reader for, Assimp tries all of its readers, and some read
+    // out of bounds.
+    if (format.reader != FileFormat::Gltf && format.reader != FileFormat::Assimp)
+        refuse(path, limits,
+               format.extension.empty()
+                   ? "the file's name has no extension, expected that of its format"
+                   : inQuotes("." + format.extension) +
+                         " files are not read as rigs or motions, expected .bvh, .fbx, .glb or "
+                         "another that Assimp reads");
+    SourceScene scene =
+        format.reader == FileFormat::Gltf ? readGltf(path, limits) : readAssimpScene(path, limits);
     separateNames(scene, path);
     addMissingBones(scene, path);
     attachLooseJoints(scene, path, limits);
@@ -55,13 +67,9 @@ Scene readFile(const std::string& path, const ReadLimits& limits) {
 
 } // namespace
 
-bool hasSceneReader(const std::string& path) {
-    return isGltfName(path) || assimpReads(path);
-}
-
-bool holdsMeshesOnly(const std::string& path) {
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return extension == "obj" || extension == "ply" || extension == "off" || extension == "stl";
+void refuse(const std::string& path, const ReadLimits& limits, const std::string& message) {
+    requireReadable(path, limits);
+    failFile(path, message);
 }
 
 Scene readSourceScene(const std::string& path, const osgDB::Options* options) {

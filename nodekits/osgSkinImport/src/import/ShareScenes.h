@@ -11,15 +11,12 @@
 
 namespace osgSkin {
 
-/// Whether there is a scene reader for this file extension.
-bool hasSceneReader(const std::string& path);
+/// Throws osgSkin::Error for a file whose format has not what is wanted, or the reason why it
+/// cannot be opened (requireReadable()).
+[[noreturn]] void refuse(const std::string& path, const ReadLimits& limits,
+                         const std::string& message);
 
-/// Whether files with this extension contain meshes only, with no skeleton or animation. These
-/// files are never given to Assimp to look for a rig: its PLY reader reads out of bounds, and its
-/// OBJ reader leaks memory.
-bool holdsMeshesOnly(const std::string& path);
-
-/// Reads a file with the reader for its format, or returns the scene that `options` share
+/// Reads a file by our glTF reader or by Assimp, or returns the scene that `options` share
 /// (shareScenes()).
 ///
 /// \throw osgSkin::Error with the file and the reason

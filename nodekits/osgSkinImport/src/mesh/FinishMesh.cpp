@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/FinishMesh.h"
 
+#include "files/FileText.h"
 #include "mesh/CornerMesh.h"
 #include "mesh/Material.h"
-#include "text/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
@@ -132,9 +132,9 @@ void mendNormals(CornerMesh& mesh, const std::string& path) {
     for (MorphTarget& target : mesh.morphs)
         for (std::size_t i = 0; i < target.normals.size(); ++i)
             if (isMended[target.vertices[i]]) target.normals[i] = glm::vec3(0.0f);
-    tellOf(path, "the normals of " + std::to_string(faces) + " of " +
-                     std::to_string(mesh.mesh.faceSizes.size()) +
-                     " faces point to the faces' back; computed anew");
+    warn(path, "the normals of " + std::to_string(faces) + " of " +
+                   std::to_string(mesh.mesh.faceSizes.size()) +
+                   " faces point to the back of the faces; recomputed");
 }
 
 /// A vector's part perpendicular to a unit normal, of unit length; zero if there is none.
@@ -342,14 +342,14 @@ constexpr float kTooBright = 16.0f;
 /// Whether colours, or alphas, range from 0 to 255 and not to 1, as some programs write them,
 /// usually as integers.
 bool countsTo255(const std::vector<glm::vec4>& colours, int first, int end) {
-    float most = 0.0f;
+    float max = 0.0f;
     bool areWhole = true;
     for (const glm::vec4& colour : colours)
         for (int k = first; k < end; ++k) {
             areWhole = areWhole && colour[k] == std::floor(colour[k]); // also false for NaN
-            most = std::max(most, colour[k]);
+            max = std::max(max, colour[k]);
         }
-    return most > (areWhole ? 1.0f : kTooBright) && most <= 255.0f;
+    return max > (areWhole ? 1.0f : kTooBright) && max <= 255.0f;
 }
 
 void finishColours(std::vector<glm::vec4>& colours) {
@@ -383,18 +383,18 @@ std::size_t samplesFor(const std::string& path, const ReadLimits& limits) {
 } // namespace
 
 void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
-    const std::size_t most = 2 * samplesFor(path, limits);
-    if (kElementsOfVertex * mesh.mesh.positions.size() > most)
+    const std::size_t limit = 2 * samplesFor(path, limits);
+    if (kElementsOfVertex * mesh.mesh.positions.size() > limit)
         failFile(path, std::to_string(mesh.mesh.positions.size()) + " vertices, expected at most " +
-                           std::to_string(most / kElementsOfVertex) + " (option maxSamples)");
+                           std::to_string(limit / kElementsOfVertex) + " (option maxSamples)");
 }
 
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits) {
-    const std::size_t most = samplesFor(path, limits) / kSamplesOfMaterial;
+    const std::size_t limit = samplesFor(path, limits) / kSamplesOfMaterial;
     const std::set<std::uint32_t> used(mesh.materials.begin(), mesh.materials.end());
-    if (used.size() > most)
+    if (used.size() > limit)
         failFile(path, std::to_string(used.size()) + " materials, expected at most " +
-                           std::to_string(most) + " (option maxSamples)");
+                           std::to_string(limit) + " (option maxSamples)");
 }
 
 ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
@@ -404,8 +404,7 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     } catch (const Error& error) {
         failFile(path, error.what());
     }
-    if (read.mesh.size() == 0.0)
-        failFile(path, "all vertices are at one place, expected a surface");
+    if (read.mesh.size() == 0.0) failFile(path, "all vertices are at the same position");
     checkMorphs(read.morphs, path);
     if (normalise(read.normals)) {
         mendNormals(read, path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/Material.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/FindNamedFile>
@@ -55,7 +55,7 @@ TextureReads::~TextureReads() {
     }
     std::string what = "texture \"" + first + '"';
     if (missing > 1) what = std::to_string(missing) + " textures, \"" + first + "\" among them,";
-    tellOf(_path, what + " cannot be read; drawn without" + reason);
+    warn(_path, what + " cannot be read; drawn without" + reason);
 }
 
 namespace {
@@ -232,8 +232,8 @@ void setAlpha(osg::StateSet& state, const Material& material) {
 
 /// Searches for an image relative to the mesh's folder, then as OSG does, then by its base name in
 /// the mesh's folder, because names often contain folders of another machine.
-std::string findPicture(const std::string& name, const std::string& folder,
-                        const osgDB::Options* options) {
+std::string findImage(const std::string& name, const std::string& folder,
+                      const osgDB::Options* options) {
     std::string beside = osgDB::concatPaths(folder, name);
     if (!osgDB::isAbsolutePath(name) && osgDB::fileExists(beside)) return beside;
     std::string found = findNamedFile(name, options);
@@ -243,7 +243,7 @@ std::string findPicture(const std::string& name, const std::string& folder,
 }
 
 osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::string& meshPath,
-                                       const osgDB::Options* options, PictureReader& pictures) {
+                                       const osgDB::Options* options, ImageReader& imageReader) {
     osg::ref_ptr<osgDB::Options> local =
         options != nullptr ? options->cloneOptions() : new osgDB::Options;
     local->getDatabasePathList().push_front(osgDB::getFilePath(meshPath));
@@ -251,11 +251,11 @@ osg::ref_ptr<osg::Image> readImageFile(const std::string& name, const std::strin
     // Fetch nothing from a network, run nothing, and open regular files only: others may block
     // forever.
     if (osgDB::containsServerAddress(fileName) || !isOnlyRead(fileName)) return nullptr;
-    const std::string found = findPicture(fileName, osgDB::getFilePath(meshPath), local);
+    const std::string found = findImage(fileName, osgDB::getFilePath(meshPath), local);
     if (!isRegularFile(found)) return nullptr;
-    return pictures.shared().once(found, {}, [&] {
+    return imageReader.shared().once(found, {}, [&] {
         const osg::ref_ptr<osg::Image> image =
-            pictures.readFile(found, [&]() -> osg::ref_ptr<osg::Image> {
+            imageReader.readFile(found, [&]() -> osg::ref_ptr<osg::Image> {
                 // osgDB::readImageFile() would print a warning for each.
                 return osgDB::Registry::instance()->readImage(found, local).getImage();
             });
@@ -294,8 +294,7 @@ bool hasNormalMap(const osg::StateSet& state) {
     return state.getUniform(kSamplers[Material::Normal]) != nullptr;
 }
 
-void tellOfUnusedTextures(const std::string& path,
-                          const std::map<std::string, std::size_t>& counts) {
+void warnUnusedTextures(const std::string& path, const std::map<std::string, std::size_t>& counts) {
     constexpr std::size_t kMaxKinds = 20, kMaxLength = 60;
     std::string list;
     std::size_t kinds = 0;
@@ -307,14 +306,14 @@ void tellOfUnusedTextures(const std::string& path,
         list += (list.empty() ? "" : ", ") + kind.substr(0, kMaxLength) + " (" +
                 std::to_string(count) + ")";
     }
-    if (!list.empty()) tellOf(path, "textures left out: " + list);
+    if (!list.empty()) warn(path, "textures left out: " + list);
 }
 
 osg::ref_ptr<osg::Image> readTexture(const std::string& name, const std::string& meshPath,
                                      const osgDB::Options* options, TextureReads& reads) {
     if (name.empty()) return nullptr;
     return reads.once(name,
-                      [&] { return readImageFile(name, meshPath, options, reads.pictures()); });
+                      [&] { return readImageFile(name, meshPath, options, reads.imageReader()); });
 }
 
 } // namespace osgSkin

@@ -2,7 +2,7 @@
 #ifndef OSGSKINIMPORT_MESH_MATERIAL_H
 #define OSGSKINIMPORT_MESH_MATERIAL_H
 
-#include "mesh/Pictures.h"
+#include "mesh/Images.h"
 
 #include <osg/Image>
 #include <osg/StateSet>
@@ -28,7 +28,7 @@ public:
     /// \param path of the file that names the textures
     /// \param options with limits for all textures together; may be null
     TextureReads(std::string path, const osgDB::Options* options)
-        : _path(std::move(path)), _pictures(options) {}
+        : _path(std::move(path)), _imageReader(options) {}
     ~TextureReads();
     TextureReads(const TextureReads&) = delete;
     TextureReads& operator=(const TextureReads&) = delete;
@@ -41,11 +41,11 @@ public:
                                   const std::function<osg::ref_ptr<osg::Image>()>& read);
 
     /// The reader for all of them.
-    PictureReader& pictures() { return _pictures; }
+    ImageReader& imageReader() { return _imageReader; }
 
 private:
     const std::string _path;
-    PictureReader _pictures;
+    ImageReader _imageReader;
     std::map<std::string, osg::ref_ptr<osg::Image>> _images; ///< by name
     std::map<std::string, std::string> _reasons;             ///< why images are missing, if known
 };
@@ -95,8 +95,7 @@ bool hasNormalMap(const osg::StateSet& state);
 /// Reports textures that are not drawn in one notice; none if `counts` is empty.
 /// \param path of the file
 /// \param counts number of textures by kind, in the file's own words
-void tellOfUnusedTextures(const std::string& path,
-                          const std::map<std::string, std::size_t>& counts);
+void warnUnusedTextures(const std::string& path, const std::map<std::string, std::size_t>& counts);
 
 /// Reads a texture that the mesh file `meshPath` names; null if it cannot be read.
 /// \param name of the texture

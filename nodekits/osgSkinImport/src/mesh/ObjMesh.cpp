@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/MeshFiles.h"
 
+#include "files/FileText.h"
 #include "mesh/Material.h"
-#include "text/FileText.h"
 
 #include <osgSkin/Error>
 
@@ -26,9 +26,9 @@
 namespace osgSkin {
 namespace {
 
-constexpr std::size_t kLongestName = 4000; ///< of a material or a file; the rest is cut off
+constexpr std::size_t kMaxName = 4000; ///< of a material or a file; the rest is cut off
 constexpr std::size_t kMaxLibraries = 1000;
-constexpr std::size_t kMaxCorners = 255;       ///< per face
+constexpr std::size_t kMaxCorners = 255;          ///< per face
 constexpr std::size_t kSamplesOfObjMaterial = 20; ///< each takes two or three kilobytes
 
 // Lines and words of OBJ and MTL files.
@@ -68,39 +68,7 @@ std::string_view takeWord(std::string_view& line) {
 /// The name in the rest of a line; it may contain blanks.
 std::string_view nameIn(std::string_view rest) {
     const std::size_t first = std::min(rest.size(), rest.find_first_not_of(" \t"));
-    return rest.substr(first, rest.find_last_not_of(" \t") + 1 - first).substr(0, kLongestName);
-}
-
-/// Like parseNumber(), but sums the digits of ordinary decimals one by one, which may round the
-/// last bit differently. The border of a skin region can depend on that bit; this keeps the
-/// binding, elastic shapes and images of existing characters.
-bool readDecimal(std::string_view word, double& value) {
-    constexpr std::size_t mostDigits = 32;
-    if (!parseNumber(word, value)) return false;
-    if (std::abs(value) <= 1e-300) value = 0.0; // without a sign
-    if (word.size() > mostDigits || !(std::abs(value) > 1e-300 && std::abs(value) < 1e300))
-        return true;
-    const auto isDigit = [&](std::size_t at) {
-        return at < word.size() && word[at] >= '0' && word[at] <= '9';
-    };
-    const bool hasSign = word[0] == '+' || word[0] == '-';
-    std::size_t at = hasSign ? 1 : 0;
-    double sum = 0.0;
-    for (; isDigit(at); ++at) sum = sum * 10.0 + (word[at] - '0');
-    if (at < word.size() && word[at] == '.') {
-        constexpr double tenths[] = {1.0, 0.1, 0.01, 0.001, 0.0001, 0.00001, 0.000001, 0.0000001};
-        for (std::size_t place = 1; isDigit(++at); ++place)
-            sum += (word[at] - '0') *
-                   (place < std::size(tenths) ? tenths[place] : std::pow(10.0, -double(place)));
-    }
-    int exponent = 0;
-    if (at + 1 < word.size() && (word[at] == 'e' || word[at] == 'E')) {
-        const std::size_t digits = at + (word[at + 1] == '+' ? 2 : 1);
-        std::from_chars(word.data() + digits, word.data() + word.size(), exponent);
-    }
-    if (exponent != 0) sum = std::ldexp(sum * std::pow(5.0, exponent), exponent);
-    value = word[0] == '-' ? -sum : sum;
-    return true;
+    return rest.substr(first, rest.find_last_not_of(" \t") + 1 - first).substr(0, kMaxName);
 }
 
 /// The array that a line of an OBJ file adds to, in the order of v/vt/vn; -1: none of these.
@@ -182,9 +150,9 @@ public:
             readLine(keyword, rest);
         });
         if (_placed > 0)
-            tellOf(path, "moved or scaled textures (-o, -s): " + std::to_string(_placed) +
-                             ", drawn as if they were not");
-        tellOfUnusedTextures(path, _unused);
+            warn(path, "texture offset and scale (-o, -s) are not supported; ignored for " +
+                           std::to_string(_placed) + " textures");
+        warnUnusedTextures(path, _unused);
     }
 
     /// Null if no library so far has the material.
@@ -236,7 +204,7 @@ private:
     }
 
     static bool readNumber(std::string_view rest, double& number) {
-        return readDecimal(takeWord(rest), number) && std::isfinite(number);
+        return parseNumber(takeWord(rest), number) && std::isfinite(number);
     }
 
     /// Reads three numbers, or one for a grey.
@@ -246,7 +214,7 @@ private:
         for (std::size_t k = 0; k < 3; ++k) {
             std::string_view word = takeWord(rest);
             if (k == 0) first = word;
-            if (!readDecimal(word.empty() ? first : word, result[k]) || !std::isfinite(result[k]))
+            if (!parseNumber(word.empty() ? first : word, result[k]) || !std::isfinite(result[k]))
                 return false;
         }
         colour = result;
@@ -300,16 +268,16 @@ private:
 constexpr std::array<const char*, 3> kKinds{"vertex", "texture coordinate", "normal"};
 
 /// Whether a word is infinity or NaN, as some C libraries print them.
-bool isBroken(std::string_view word, double value) {
+bool isInfiniteOrNaN(std::string_view word, double value) {
     return word.find("#IND") != std::string_view::npos ||
            word.find("#QNAN") != std::string_view::npos ||
            word.find("#INF") != std::string_view::npos || std::isnan(value) ||
            std::abs(value) >= 1e300;
 }
 
-/// Whether a word resembles a keyword of a vertex or face: in upper case, or with invisible
-/// characters, such as a byte order mark in concatenated files.
-bool looksLikeKeyword(std::string_view word) {
+/// The keyword of a vertex or face that a word resembles: in upper case, or with invisible
+/// characters, such as a byte order mark in concatenated files. Empty if it resembles none.
+std::string similarKeyword(std::string_view word) {
     std::string seen;
     for (const char c : word) {
         if (c > ' ' && c < 0x7f)
@@ -317,7 +285,8 @@ bool looksLikeKeyword(std::string_view word) {
         else if (!seen.empty())
             break;
     }
-    return seen != word && (kindOf(seen) >= 0 || seen == "f" || seen == "fo");
+    const bool isKeyword = kindOf(seen) >= 0 || seen == "f" || seen == "fo";
+    return isKeyword && seen != word ? seen : std::string();
 }
 
 class ObjReader {
@@ -354,10 +323,10 @@ private:
         });
         if (*std::max_element(_total.begin(), _total.end()) > 0x7fffffff)
             failFile(_path, "more vertices than 32-bit indices reach");
-        const std::size_t most = _limits.samplesOf(text.size()) / kSamplesOfObjMaterial;
-        if (materials.size() > most)
+        const std::size_t limit = _limits.samplesOf(text.size()) / kSamplesOfObjMaterial;
+        if (materials.size() > limit)
             failFile(_path, std::to_string(materials.size()) + " materials, expected at most " +
-                                std::to_string(most) + " (option maxSamples)");
+                                std::to_string(limit) + " (option maxSamples)");
         return materials;
     }
 
@@ -371,10 +340,10 @@ private:
             useMaterial(nameIn(rest));
         else if (keyword == "mtllib" && !nameIn(rest).empty() && _libraries.emplace(rest).second)
             readLibrary(nameIn(rest));
-        else if (looksLikeKeyword(keyword))
+        else if (const std::string similar = similarKeyword(keyword); !similar.empty())
             failLine(_path, _line,
-                     inQuotes(keyword) +
-                         " begins a line, expected \"v\", \"vt\", \"vn\" or \"f\", and a blank");
+                     "unknown keyword " + inQuotes(keyword) + "; did you mean " +
+                         inQuotes(similar) + "?");
     }
 
     void addNumbers(std::string_view keyword, std::string_view rest) {
@@ -384,8 +353,8 @@ private:
         for (; count < numbers.size(); ++count) {
             const std::string_view word = takeWord(rest);
             double& value = numbers[count];
-            const bool isNumber = readDecimal(word, value);
-            if (isBroken(word, value)) {
+            const bool isNumber = parseNumber(word, value);
+            if (isInfiniteOrNaN(word, value)) {
                 // A broken normal is no reason to refuse a body: all normals are computed then.
                 value = 0.0;
                 if (keyword != "v") continue;
@@ -470,7 +439,7 @@ private:
     void useMaterial(std::string_view name) {
         const MtlMaterial* const found = _library->find(name);
         if (found == nullptr && !name.empty() && _missing.emplace(name).second)
-            _warnings.push_back("material " + inQuotes(name) + " is in no material library");
+            _warnings.push_back("no material library has the material " + inQuotes(name));
         _material = found;
     }
 
@@ -504,8 +473,7 @@ private:
     void readLibrary(std::string_view line) {
         if (_libraries.size() > kMaxLibraries)
             failLine(_path, _line,
-                     "one more material library, expected at most " +
-                         std::to_string(kMaxLibraries));
+                     "more than " + std::to_string(kMaxLibraries) + " material libraries");
         for (const std::string& path : libraryPaths(line)) {
             std::error_code missing;
             const std::filesystem::path whole = std::filesystem::canonical(path, missing);
@@ -521,20 +489,20 @@ private:
 
     CornerMesh finish() {
         if (!_warnings.empty())
-            tellOf(_path, _warnings.front() +
-                              (_warnings.size() > 1
-                                   ? " (and " + std::to_string(_warnings.size() - 1) + " more)"
-                                   : ""));
+            warn(_path, _warnings.front() +
+                            (_warnings.size() > 1
+                                 ? " (and " + std::to_string(_warnings.size() - 1) + " more)"
+                                 : ""));
         const std::string vertices =
             " of " + std::to_string(_mesh.mesh.positions.size()) + " vertices have ";
         const bool hasColours = _coloured > 0 && _coloured == _mesh.mesh.positions.size();
         if (!hasColours && _coloured > 0)
-            tellOf(_path, std::to_string(_coloured) + vertices + "colours, which are left out");
+            warn(_path, std::to_string(_coloured) + vertices + "colours; all colours are ignored");
         // Some programs divide the position by it; to others it is a grey level, or a scan's
         // quality.
         if (_weighted > 0)
-            tellOf(_path, std::to_string(_weighted) + vertices +
-                              "a fourth number that is not 1; it is left out");
+            warn(_path,
+                 std::to_string(_weighted) + vertices + "a fourth number that is not 1; ignored");
         for (std::size_t c = 0; c < _corners.size(); ++c) {
             const auto [texCoord, normal] = _corners[c];
             _mesh.hasTexCoords = _mesh.hasTexCoords || texCoord >= 0;

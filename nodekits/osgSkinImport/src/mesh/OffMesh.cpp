@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/MeshFiles.h"
 
+#include "files/FileText.h"
 #include "mesh/Material.h"
-#include "text/FileText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,10 +116,10 @@ public:
         count("edges");
         for (std::size_t v = 0; v < vertices; ++v) addVertex(v);
         for (std::size_t f = 0; f < faces; ++f) addFace(f);
-        if (!_text.word().empty()) tellOf(_path, "lines behind the last face, skipped");
+        if (!_text.word().empty()) warn(_path, "lines after the last face ignored");
         if (_colouredFaces > 0)
-            tellOf(_path, std::to_string(_colouredFaces) + " of " + std::to_string(faces) +
-                              " faces have colours, which are left out");
+            warn(_path, std::to_string(_colouredFaces) + " of " + std::to_string(faces) +
+                            " faces have colours, which are left out");
         _mesh.hasTexCoords = _kind.texCoords;
         return std::move(_mesh);
     }
@@ -132,8 +132,7 @@ private:
             failFile(_path, inQuotes(word) + ", expected a number of " + what);
         // Each vertex and each face takes several characters.
         if (number > static_cast<double>(_size))
-            failFile(_path,
-                     inQuotes(word) + " " + what + ", expected no more than the file has room for");
+            failFile(_path, inQuotes(word) + " " + what + ", more than fit in the file");
         return static_cast<std::size_t>(number);
     }
 
@@ -171,8 +170,8 @@ private:
         const std::vector<std::string_view>& words = _text.line();
         const auto fail = [&] {
             failFile(_path, "face " + std::to_string(index) +
-                                ": expected a line with a number of corners and so many numbers "
-                                "below " +
+                                ": expected the number of its corners and as many vertex "
+                                "numbers below " +
                                 std::to_string(vertices));
         };
         const auto number = [&](std::string_view word, std::size_t end) {

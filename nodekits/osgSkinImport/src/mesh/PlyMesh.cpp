@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/MeshFiles.h"
 
+#include "files/FileText.h"
 #include "mesh/Material.h"
-#include "text/FileText.h"
 
 #include <algorithm>
 #include <array>
@@ -81,8 +81,7 @@ public:
         first.erase(first.find_last_not_of(" \t") + 1); // as on other lines
         if (first != "ply") failLine(_path, 1, "expected \"ply\"");
         for (;;) {
-            if (_at >= _text.size())
-                failFile(_path, "the header has no end, expected a line \"end_header\"");
+            if (_at >= _text.size()) failFile(_path, "the header has no line \"end_header\"");
             const std::string line = nextLine();
             std::istringstream words(line);
             std::string keyword;
@@ -106,7 +105,7 @@ public:
             if (_header.elements[e].count > _text.size() - _at + 1)
                 failLine(_path, _elementLines[e],
                          inQuotes(std::to_string(_header.elements[e].count)) +
-                             " elements, expected no more than the file has room for");
+                             " elements, more than fit in the file");
         return std::move(_header);
     }
 
@@ -133,8 +132,8 @@ private:
             _header.format = PlyHeader::Format::BigEndian;
         else
             failLine(_path, _line,
-                     inQuotes(name) + " is no format, expected ascii, "
-                                      "binary_little_endian or binary_big_endian");
+                     "unknown format " + inQuotes(name) +
+                         ", expected ascii, binary_little_endian or binary_big_endian");
         if (_hasFormat) failLine(_path, _line, "a second format");
         _hasFormat = true;
     }
@@ -147,12 +146,10 @@ private:
         if (!parseNumber(count, number) || number != std::floor(number))
             failLine(_path, _line, inQuotes(count) + " elements, expected a whole number");
         if (!(number >= 0.0 && number <= double(_text.size())))
-            failLine(_path, _line,
-                     inQuotes(count) + " elements, expected no more than the file has room for");
+            failLine(_path, _line, inQuotes(count) + " elements, more than fit in the file");
         element.count = static_cast<std::size_t>(number);
         if (_header.elements.size() >= kMaxElements)
-            failLine(_path, _line,
-                     "one of more than " + std::to_string(kMaxElements) + " elements");
+            failLine(_path, _line, "more than " + std::to_string(kMaxElements) + " elements");
         for (const PlyHeader::Element& known : _header.elements)
             if (known.name == element.name)
                 failLine(_path, _line, "a second element " + inQuotes(element.name));
@@ -167,11 +164,11 @@ private:
         for (const NamedType& known : kTypes)
             names += (names.empty() ? "" : ", ") + std::string(known.name);
         failLine(_path, _line,
-                 inQuotes(name) + " is no type of a property, expected one of " + names);
+                 "unknown property type " + inQuotes(name) + ", expected one of " + names);
     }
 
     void readProperty(std::istream& words) {
-        if (_header.elements.empty()) failLine(_path, _line, "a property of no element");
+        if (_header.elements.empty()) failLine(_path, _line, "property before any element");
         PlyHeader::Property property;
         std::string name;
         words >> name;
@@ -180,7 +177,8 @@ private:
             property.count = type(name);
             if (property.count->kind == kFloating)
                 failLine(_path, _line,
-                         inQuotes(name) + " counts no entries, expected a whole number");
+                         "a list's length has the type " + inQuotes(name) +
+                             ", expected an integer type");
             words >> name;
         }
         property.type = type(name);
@@ -189,7 +187,7 @@ private:
         if (property.name.empty()) failLine(_path, _line, "a property without a name");
         if (element.properties.size() >= kMaxProperties)
             failLine(_path, _line,
-                     "one of more than " + std::to_string(kMaxProperties) + " properties of " +
+                     "more than " + std::to_string(kMaxProperties) + " properties of " +
                          inQuotes(element.name));
         if (element.find({property.name.c_str()}))
             failLine(_path, _line,
@@ -206,7 +204,8 @@ private:
         for (const char* known : {"element", "property"})
             if (keyword.compare(0, 4, known, 4) == 0)
                 failLine(_path, _line,
-                         inQuotes(word) + " begins no line, expected " + inQuotes(known));
+                         "unknown keyword " + inQuotes(word) + "; did you mean " + inQuotes(known) +
+                             "?");
     }
 
     void readComment(std::istream& words) {
@@ -303,7 +302,7 @@ public:
         const std::size_t end = std::min(_rest.find_first_of(blank, begin), _rest.size());
         const bool isNumber = parseNumber(_rest.substr(begin, end - begin), number);
         _rest.remove_prefix(end);
-        return isNumber ? nullptr : "a word that is no number";
+        return isNumber ? nullptr : "not a number";
     }
 
     bool hasRoom(double entries, const PlyHeader::Type&) const {
@@ -343,7 +342,7 @@ bool walk(const std::string& path, const PlyHeader& header, Body body, const Tak
                     if (const char* wrong = body.read(*property.count, entries)) fail(wrong);
                     if (!body.hasRoom(entries, property.type) || entries != std::floor(entries))
                         fail("a list of " + lengthText(entries) +
-                             " entries, expected no more than the file has room for");
+                             " entries, more than fit in the file");
                 }
                 values[p].clear();
                 for (double k = 0.0; k < entries; k += 1.0) {
@@ -372,12 +371,11 @@ void readPlyBody(const std::string& path, const PlyHeader& header, std::string_v
                       take);
     if (isWhole) return;
     // Rows longer than the header declares would have been read as several.
-    if (isText)
-        failFile(path, "words behind the last element, expected as many as the header says");
-    tellOf(path, "bytes behind the last element, skipped");
+    if (isText) failFile(path, "more numbers than the header declares");
+    warn(path, "trailing bytes ignored");
 }
 
-using Place = std::optional<std::size_t>;
+using Column = std::optional<std::size_t>; ///< index of a property
 
 constexpr double kNoTexture = -1.0; ///< for an invalid texture number
 
@@ -401,16 +399,16 @@ public:
     PlyCollector(const std::string& path, const PlyHeader& header)
         : _path(path), _textureCount(static_cast<double>(header.textures.size())) {
         for (const PlyHeader::Element& element : header.elements) {
-            if (element.name == "vertex") placeVertex(element);
+            if (element.name == "vertex") findVertexColumns(element);
             if (element.name == "face") {
                 _indices = element.find({"vertex_indices", "vertex_index"});
                 _cornerTexCoords = element.find({"texcoord"});
                 _texture = element.find({"texnumber"});
                 if (element.find({"red", "diffuse_red"}))
-                    tellOf(path, "colours of faces are left out");
+                    warn(path, "colours of faces are left out");
             }
             if (element.name == "multi_texture_vertex")
-                tellOf(path, "texture coordinates of \"multi_texture_vertex\" are left out");
+                warn(path, "texture coordinates of \"multi_texture_vertex\" are left out");
             if (element.name == "tristrips")
                 _strips = element.find({"vertex_indices", "vertex_index"});
         }
@@ -468,12 +466,10 @@ public:
     }
 
 private:
-    void placeVertex(const PlyHeader::Element& element) {
+    void findVertexColumns(const PlyHeader::Element& element) {
         _x = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
         if (!_x[0] || !_x[1] || !_x[2])
-            failFile(
-                _path,
-                "the header's element vertex has no x, y and z, expected properties so called");
+            failFile(_path, "the element \"vertex\" has no properties x, y and z");
         _n = {element.find({"nx"}), element.find({"ny"}), element.find({"nz"})};
         _t = {element.find({"u", "s", "texture_u"}), element.find({"v", "t", "texture_v"})};
         _c = {element.find({"red", "diffuse_red", "r"}),
@@ -488,8 +484,8 @@ private:
     }
 
     /// A property's value; the first value of a list.
-    static double at(const PlyValues& values, const Place& place) {
-        return values[*place].empty() ? 0.0 : values[*place].front();
+    static double at(const PlyValues& values, const Column& column) {
+        return values[*column].empty() ? 0.0 : values[*column].front();
     }
 
     void addVertex(const PlyValues& values) {
@@ -549,11 +545,11 @@ private:
 
     const std::string& _path;
     const double _textureCount;
-    std::array<Place, 3> _x, _n;
-    std::array<Place, 2> _t;
-    std::array<Place, 4> _c;
+    std::array<Column, 3> _x, _n;
+    std::array<Column, 2> _t;
+    std::array<Column, 4> _c;
     std::array<FullColour, 2> _full; ///< of red, green and blue; of alpha
-    Place _indices, _cornerTexCoords, _texture, _strips;
+    Column _indices, _cornerTexCoords, _texture, _strips;
     std::vector<glm::dvec3> _positions;
     std::vector<glm::vec3> _normals;
     std::vector<glm::vec2> _texCoords, _faceTexCoords;

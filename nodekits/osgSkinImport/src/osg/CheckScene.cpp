@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "osg/CheckScene.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/GlmTypes>
@@ -53,8 +53,9 @@ auto isFine(const Value& vector) -> decltype(bool(Value::num_components)) {
     return true;
 }
 
-bool isFine(const osg::Matrixf& matrix) {
-    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double x) { return isFine(x); });
+template <typename Matrix>
+auto isFine(const Matrix& matrix) -> decltype(bool(matrix.isIdentity())) {
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](auto x) { return isFine(double(x)); });
 }
 
 template <typename Value>
@@ -78,27 +79,27 @@ Keys keysOf(const osgAnimation::KeyframeContainer& container) {
 }
 
 template <typename... Values>
-Keys lookAt(const osgAnimation::KeyframeContainer& container) {
+Keys checkKeys(const osgAnimation::KeyframeContainer& container) {
     Keys found = Keys::NotOfThisKind;
     ((found = found == Keys::NotOfThisKind ? keysOf<Values>(container) : found), ...);
     return found;
 }
 
-/// Why OSG cannot play an animation; empty if it can. OSG looks up times in a channel's keys
-/// without checking that there are any, or that they are in order.
-std::string whyNotPlayed(const osgAnimation::Animation& animation) {
+/// The reason why OSG cannot play an animation; empty if it can. OSG looks up times in a channel's
+/// keys without checking that there are any, or that they are in order.
+std::string animationError(const osgAnimation::Animation& animation) {
     using namespace osgAnimation;
     for (const osg::ref_ptr<Channel>& channel : animation.getChannels()) {
-        if (!channel) return "a channel that is none";
+        if (!channel) return "a null channel";
         const std::string which = "channel " + inQuotes(channel->getName()) + " of joint " +
                                   inQuotes(channel->getTargetName());
         const Sampler* sampler = channel->getSampler();
         const KeyframeContainer* keys =
             sampler != nullptr ? sampler->getKeyframeContainer() : nullptr;
         if (keys == nullptr || keys->size() == 0) return which + " without keys";
-        const Keys found = lookAt<float, double, osg::Vec2, osg::Vec3, osg::Vec4, osg::Quat,
-                                  osg::Matrixf, FloatCubicBezier, DoubleCubicBezier,
-                                  Vec2CubicBezier, Vec3CubicBezier, Vec4CubicBezier>(*keys);
+        const Keys found = checkKeys<float, double, osg::Vec2, osg::Vec3, osg::Vec4, osg::Quat,
+                                     osg::Matrixf, FloatCubicBezier, DoubleCubicBezier,
+                                     Vec2CubicBezier, Vec3CubicBezier, Vec4CubicBezier>(*keys);
         if (found == Keys::WrongValues)
             return which + " with values of keys that are not finite, or beyond -1e18 to 1e18, or "
                            "rotations that are not of length 1";
@@ -112,11 +113,11 @@ std::string whyNotPlayed(const osgAnimation::Animation& animation) {
 
 // Rigs and morphs.
 
-constexpr float kRounding = -1e-3f; ///< the least weight that exporters round from 0
+constexpr float kRounding = -1e-3f; ///< slightly negative weights come from rounding
 constexpr auto kMaxWeight = static_cast<float>(kLargestCoordinate);
 
 /// Why an array does not contain `count` vectors of three floats; empty if it does.
-std::string wrongWith(const osg::Array* array, std::size_t count, const std::string& what) {
+std::string arrayError(const osg::Array* array, std::size_t count, const std::string& what) {
     if (dynamic_cast<const osg::Vec3Array*>(array) == nullptr)
         return what + " that are not of three floats each";
     const unsigned found = array->getNumElements();
@@ -124,12 +125,12 @@ std::string wrongWith(const osg::Array* array, std::size_t count, const std::str
     return std::to_string(found) + " " + what + ", expected " + std::to_string(count);
 }
 
-std::string whyNotRigged(const osgAnimation::RigGeometry& rig) {
+std::string rigError(const osgAnimation::RigGeometry& rig) {
     const osg::Geometry* const source = rig.getSourceGeometry();
-    if (source == nullptr) return "no geometry that it is made of, expected one";
-    if (rig.getRigTransformImplementation() == nullptr) return "no way to be moved, expected one";
+    if (source == nullptr) return "no source geometry";
+    if (rig.getRigTransformImplementation() == nullptr) return "no RigTransform";
     const osgAnimation::VertexInfluenceMap* const influences = rig.getInfluenceMap();
-    if (influences == nullptr) return "no bones, expected some";
+    if (influences == nullptr) return "no bones";
     const osg::Array* const places = source->getVertexArray();
     const std::size_t vertices = places != nullptr ? places->getNumElements() : 0;
     for (const auto& [bone, entries] : *influences)
@@ -141,44 +142,44 @@ std::string whyNotRigged(const osgAnimation::RigGeometry& rig) {
     return {};
 }
 
-std::string whyNotMorphed(const osgAnimation::MorphGeometry& morph) {
+std::string morphError(const osgAnimation::MorphGeometry& morph) {
     const osg::Array* const places = morph.getVertexArray();
     const std::size_t vertices = places != nullptr ? places->getNumElements() : 0;
-    std::string wrong = wrongWith(places, vertices, "vertices");
+    std::string wrong = arrayError(places, vertices, "vertices");
     const osg::Array* const normals = morph.getNormalArray();
     if (wrong.empty() && normals != nullptr) // a single overall normal is not morphed
-        wrong = wrongWith(normals, normals->getNumElements(), "normals");
+        wrong = arrayError(normals, normals->getNumElements(), "normals");
     const osg::Array *const atRest = morph.getVertexSource(), *const turned =
                                                                   morph.getNormalSource();
     if (wrong.empty() && atRest != nullptr && atRest->getNumElements() > 0)
-        wrong = wrongWith(atRest, vertices, "vertices at rest");
+        wrong = arrayError(atRest, vertices, "vertices at rest");
     if (wrong.empty() && turned != nullptr && normals != nullptr && turned->getNumElements() > 0)
-        wrong = wrongWith(turned, normals->getNumElements(), "normals at rest");
+        wrong = arrayError(turned, normals->getNumElements(), "normals at rest");
     for (const auto& target : morph.getMorphTargetList()) {
         if (!wrong.empty()) break;
         const osg::Geometry* const shape = target.getGeometry();
         if (shape == nullptr) return "a morph target without a geometry";
-        wrong = wrongWith(shape->getVertexArray(), vertices, "vertices of a morph target");
+        wrong = arrayError(shape->getVertexArray(), vertices, "vertices of a morph target");
         if (!wrong.empty() || normals == nullptr || shape->getNormalArray() == nullptr) continue;
-        wrong = wrongWith(shape->getNormalArray(), vertices, "normals of a morph target");
-        if (wrong.empty()) wrong = wrongWith(normals, vertices, "normals");
+        wrong = arrayError(shape->getNormalArray(), vertices, "normals of a morph target");
+        if (wrong.empty()) wrong = arrayError(normals, vertices, "normals");
     }
     return wrong;
 }
 
 /// Why osgAnimation would access memory out of range when it deforms a rig or morph; empty if it
 /// would not, and for other geometries.
-std::string whyNotDeformed(const osg::Geometry& geometry) {
+std::string deformError(const osg::Geometry& geometry) {
     if (const auto* rig = dynamic_cast<const osgAnimation::RigGeometry*>(&geometry))
-        return whyNotRigged(*rig);
+        return rigError(*rig);
     if (const auto* morph = dynamic_cast<const osgAnimation::MorphGeometry*>(&geometry))
-        return whyNotMorphed(*morph);
+        return morphError(*morph);
     return {};
 }
 
 /// Whether a drawable has a rig's bounding box callback but is not a rig, for which osgAnimation
 /// throws.
-bool hasBoxOfARig(const osg::Drawable& drawable) {
+bool hasRigBox(const osg::Drawable& drawable) {
     const auto* box = dynamic_cast<const osgAnimation::RigComputeBoundingBoxCallback*>(
         drawable.getComputeBoundingBoxCallback());
     return box != nullptr && dynamic_cast<const osgAnimation::RigGeometry*>(&drawable) == nullptr;
@@ -199,61 +200,24 @@ std::size_t vertexCountOf(const osg::Geometry& geometry) {
     return count;
 }
 
-std::string wrongIn(const osg::PrimitiveSet& set, std::size_t vertices) {
-    if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&set)) {
-        double end = lengths->getFirst();
-        for (const GLsizei length : *lengths) {
-            if (length < 0) return "a primitive of " + std::to_string(length) + " corners";
-            end += length;
-        }
-        if (lengths->getFirst() < 0 || end > double(vertices))
-            return "primitives beyond its " + std::to_string(vertices) + " vertices";
-        return {};
-    }
-    if (const auto* range = dynamic_cast<const osg::DrawArrays*>(&set)) {
-        if (range->getFirst() < 0 || range->getCount() < 0 ||
-            double(range->getFirst()) + range->getCount() > double(vertices))
-            return "primitives beyond its " + std::to_string(vertices) + " vertices";
-        return {};
-    }
-    const unsigned count = set.getNumIndices();
-    if (set.getMode() == GL_TRIANGLES &&
-        count % 3 != 0) // OSG reads all corners of an incomplete triangle
-        return std::to_string(count) + " corners of triangles, expected a multiple of 3";
-    for (unsigned i = 0; i < count; ++i)
-        if (set.index(i) >= vertices)
-            return "a primitive that names vertex " + std::to_string(set.index(i)) +
-                   ", expected less than " + std::to_string(vertices);
-    return {};
+/// False if an array of any of these types has a vector that is not fine.
+template <typename... Arrays>
+bool areFine(const osg::Array& array) {
+    const auto isFineAs = [&array](const auto* vectors) {
+        vectors = dynamic_cast<decltype(vectors)>(&array);
+        return vectors == nullptr || std::all_of(vectors->begin(), vectors->end(),
+                                                 [](const auto& v) { return isFine(v); });
+    };
+    return (isFineAs(static_cast<const Arrays*>(nullptr)) && ...);
 }
 
-bool isFinePlace(double number) {
-    return std::abs(number) <= kLargestCoordinate; // false for NaN
-}
-
-template <typename Array>
-bool areInRange(const osg::Array& array) {
-    const auto* vectors = dynamic_cast<const Array*>(&array);
-    if (vectors == nullptr) return true;
-    return std::all_of(vectors->begin(), vectors->end(), [](const auto& v) {
-        for (unsigned i = 0; i < Array::ElementDataType::num_components; ++i)
-            if (!isFinePlace(double(v.ptr()[i]))) return false;
-        return true;
-    });
-}
-
-std::string wrongIn(const osg::Geometry& geometry) {
-    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
-        if (!set) return "a primitive set that is none";
+std::string geometryError(const osg::Geometry& geometry) {
     const std::size_t vertices = vertexCountOf(geometry);
-    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
-        std::string wrong = wrongIn(*set, vertices);
-        if (!wrong.empty()) return wrong;
-    }
+    std::string broken = brokenPrimitive(geometry, vertices);
+    if (!broken.empty()) return broken;
     if (const osg::Array* places = geometry.getVertexArray())
-        if (!areInRange<osg::Vec2Array>(*places) || !areInRange<osg::Vec3Array>(*places) ||
-            !areInRange<osg::Vec4Array>(*places) || !areInRange<osg::Vec2dArray>(*places) ||
-            !areInRange<osg::Vec3dArray>(*places) || !areInRange<osg::Vec4dArray>(*places))
+        if (!areFine<osg::Vec2Array, osg::Vec3Array, osg::Vec4Array, osg::Vec2dArray,
+                     osg::Vec3dArray, osg::Vec4dArray>(*places))
             return "vertices that are not finite, or beyond -1e18 to 1e18";
     osg::Geometry::ArrayList arrays;
     geometry.getArrayList(arrays);
@@ -262,25 +226,19 @@ std::string wrongIn(const osg::Geometry& geometry) {
             array->getNumElements() < vertices)
             return "an array of " + std::to_string(array->getNumElements()) +
                    " elements, expected one for each of " + std::to_string(vertices) + " vertices";
-    return whyNotDeformed(geometry);
-}
-
-bool isFinePlace(const osg::Matrixd& matrix) {
-    return std::all_of(matrix.ptr(), matrix.ptr() + 16,
-                       [](double number) { return isFinePlace(number); });
+    return deformError(geometry);
 }
 
 /// Whether the matrix of a transform, or of an element of an animated one, is in range.
-bool hasPlace(const osg::Object& object) {
+bool hasFiniteMatrix(const osg::Object& object) {
     osg::Matrixd matrix;
     if (const auto* transform = dynamic_cast<const osg::Transform*>(&object))
         transform->computeLocalToWorldMatrix(matrix, nullptr);
     else if (const auto* part = dynamic_cast<const osgAnimation::StackedTransformElement*>(&object))
         part->applyToMatrix(matrix);
     const auto* bone = dynamic_cast<const osgAnimation::Bone*>(&object);
-    return isFinePlace(matrix) &&
-           (bone == nullptr || (isFinePlace(bone->getMatrixInSkeletonSpace()) &&
-                                isFinePlace(bone->getInvBindMatrixInSkeletonSpace())));
+    return isFine(matrix) && (bone == nullptr || (isFine(bone->getMatrixInSkeletonSpace()) &&
+                                                  isFine(bone->getInvBindMatrixInSkeletonSpace())));
 }
 
 // The whole scene.
@@ -363,14 +321,14 @@ void checkLinks(const osgAnimation::Animation& animation, const SceneObjects& sc
                 moves = callback->link(tried.get()) || moves;
                 if (tried->getTarget() == nullptr)
                     failFile(path, "animation " + inQuotes(animation.getName()) + ": channel " +
-                                       which + " is of another kind than what it moves");
+                                       which + " does not match the type of its target");
             }
         if (!moves && idle++ == 0) first = which;
     }
     if (idle > 0)
-        tellOf(path, "animation " + inQuotes(animation.getName()) + ": " + std::to_string(idle) +
-                         " of its " + std::to_string(animation.getChannels().size()) +
-                         " channels move nothing that is here, the first " + first);
+        warn(path, "animation " + inQuotes(animation.getName()) + ": " + std::to_string(idle) +
+                       " of its " + std::to_string(animation.getChannels().size()) +
+                       " channels have no target in this scene, the first " + first);
 }
 
 } // namespace
@@ -379,22 +337,22 @@ void checkScene(osg::Node& scene, const std::string& path) {
     SceneObjects objects;
     scene.accept(objects);
     for (const osg::Geometry* geometry : objects.geometries) {
-        const std::string wrong = wrongIn(*geometry);
+        const std::string wrong = geometryError(*geometry);
         if (!wrong.empty())
             failFile(path, "geometry " + inQuotes(geometry->getName()) + " has " + wrong);
     }
     for (const osg::Object* object : objects.placed)
-        if (!hasPlace(*object))
+        if (!hasFiniteMatrix(*object))
             failFile(path, "transform " + inQuotes(object->getName()) +
                                " has a matrix with numbers that are not finite, or beyond -1e18 "
                                "to 1e18");
     for (const osg::Drawable* drawable : objects.drawables)
-        if (hasBoxOfARig(*drawable))
+        if (hasRigBox(*drawable))
             failFile(path, "drawable " + inQuotes(drawable->getName()) +
-                               " has the box of a rig, expected a rig");
-    if (objects.hasNullAnimation) failFile(path, "an animation that is none");
+                               " has the bounding box callback of a rig, but is no rig");
+    if (objects.hasNullAnimation) failFile(path, "a null animation");
     for (osgAnimation::Animation* animation : objects.animations) {
-        const std::string wrong = whyNotPlayed(*animation);
+        const std::string wrong = animationError(*animation);
         if (!wrong.empty())
             failFile(path, "animation " + inQuotes(animation->getName()) + " has " + wrong);
         if (animation->computeDurationFromChannels() == 0.0) // a pose

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "osg/OsgScene.h"
 
+#include "files/FileText.h"
 #include "mesh/Material.h"
-#include "text/FileText.h"
 
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkinImport/ReadScene>
@@ -77,7 +78,9 @@ public:
         osg::Geometry& geometry = hasSource ? *rig->getSourceGeometry() : drawable;
         std::vector<glm::dvec3> positions;
         if (!positionsOf(geometry.getVertexArray(), positions)) return;
-        checkPrimitives(geometry, positions.size());
+        const std::string broken = brokenPrimitive(geometry, positions.size());
+        if (!broken.empty())
+            failFile(_path, "geometry " + inQuotes(geometry.getName()) + " has " + broken);
         osg::TriangleIndexFunctor<TriangleCollector> triangles;
         geometry.accept(triangles);
         if (triangles.corners.empty()) return; // points and lines
@@ -94,25 +97,6 @@ public:
     }
 
 private:
-    /// Checks index ranges, which OSG does not; it also reads all corners of an incomplete
-    /// triangle.
-    void checkPrimitives(osg::Geometry& geometry, std::size_t vertices) const {
-        const std::string where = "geometry \"" + geometry.getName() + "\": ";
-        for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList()) {
-            if (!set) failFile(_path, where + "a primitive set that is none");
-            const unsigned count = set->getNumIndices();
-            if (set->getDrawElements() != nullptr && set->getMode() == GL_TRIANGLES &&
-                count % 3 != 0)
-                failFile(_path, where + std::to_string(count) +
-                                    " corners of triangles, expected a multiple of 3");
-            for (unsigned i = 0; i < count; ++i) // fails at the first
-                if (set->index(i) >= vertices)
-                    failFile(_path, where + "a primitive names vertex " +
-                                        std::to_string(set->index(i)) + ", expected less than " +
-                                        std::to_string(vertices));
-        }
-    }
-
     void addWeights(const osgAnimation::VertexInfluenceMap& influences, std::uint32_t first,
                     std::size_t vertices) {
         for (const auto& [bone, entries] : influences) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinImport/ReadScene>
 
+#include "files/FileFormat.h"
+#include "files/FileText.h"
 #include "mesh/FinishMesh.h"
+#include "mesh/Images.h"
 #include "mesh/MeshFiles.h"
-#include "mesh/Pictures.h"
 #include "osg/CheckScene.h"
-#include "text/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/FindNamedFile>
@@ -22,7 +23,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -30,33 +30,25 @@ namespace osgSkin {
 
 namespace {
 
-bool isTurned(const osgDB::Options* options) {
+bool isRotated(const osgDB::Options* options) {
     if (options == nullptr) return true;
     const auto words = optionValues(options->getOptionString());
     return std::none_of(words.begin(), words.end(),
                         [](const auto& word) { return word.first == "noRotation"; });
 }
 
-/// Whether this library has a reader for the file's extension. OSG's readers of these formats trust
-/// their input, and are never used.
-bool isOurFormat(const std::string& path) {
-    static const char* const ours[] = {"bvh", "glb", "gltf", "obj", "off", "ply", "vrm", "vrma"};
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    return std::find(std::begin(ours), std::end(ours), extension) != std::end(ours);
-}
-
 /// Reads an OBJ or PLY mesh like OSG's readers: OBJ with Y up unless the options contain
 /// `noRotation`. Refuses the library's other formats, which are not scenes.
 osg::ref_ptr<osg::Node> readMeshScene(const std::string& path, const osgDB::Options* options) {
-    const bool isObj = osgDB::equalCaseInsensitive(osgDB::getFileExtension(path), "obj");
-    if (!isObj && !osgDB::equalCaseInsensitive(osgDB::getFileExtension(path), "ply"))
-        failFile(path, "a model that no scene is read from, expected .osgt, .osgb, .osgx, .obj, "
-                       ".ply or .skin");
+    const FileFormat::Reader reader = formatOf(path).reader;
+    const bool isObj = reader == FileFormat::Obj;
+    if (!isObj && reader != FileFormat::Ply)
+        failFile(path, "not a scene format; use .osgt, .osgb, .osgx, .obj, .ply or .skin");
     CornerMesh read = isObj ? readObjMesh(path, options) : readPlyMesh(path, options);
     checkMaterials(read, path, ReadLimits::of(options));
     const ImportedMesh mesh = finishMesh(std::move(read), path);
     const osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform;
-    if (isObj && isTurned(options))
+    if (isObj && isRotated(options))
         scene->setMatrix(osg::Matrix(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1));
     for (const MeshPart& part : mesh.parts) scene->addChild(part.geometry);
     return scene;
@@ -64,7 +56,7 @@ osg::ref_ptr<osg::Node> readMeshScene(const std::string& path, const osgDB::Opti
 
 /// The maximum number of nested reads: names of pseudo-loaders contain other names, and each takes
 /// stack space.
-constexpr std::size_t kDeepestRead = 16;
+constexpr std::size_t kMaxNestedReads = 16;
 
 class Deeper {
 public:
@@ -87,7 +79,7 @@ public:
 
     /// \param options of the application; may be null
     explicit GuardedReads(const osgDB::Options* options)
-        : _limits(ReadLimits::of(options)), _pictures(options) {
+        : _limits(ReadLimits::of(options)), _imageReader(options) {
         if (options != nullptr) _next = options->getReadFileCallback();
         if (!_next) _next = osgDB::Registry::instance()->getReadFileCallback();
         _isOsgNext = !_next;
@@ -100,7 +92,7 @@ public:
 
     Result openArchive(const std::string& name, osgDB::ReaderWriter::ArchiveStatus, unsigned,
                        const osgDB::Options*) override {
-        return guarded(name, [&]() -> Result { failFile(name, "an archive, expected a file"); });
+        return guarded(name, [&]() -> Result { failFile(name, "archives are not read"); });
     }
 
     Result readNode(const std::string& name, const osgDB::Options* options) override {
@@ -117,9 +109,9 @@ public:
         return readOther(name, options, [&](const std::string& file) {
             if (!isRegularFile(file)) return _next->readImage(file, options);
             Result result;
-            const osg::ref_ptr<osg::Image> image = _pictures.shared().once(file, {}, [&] {
+            const osg::ref_ptr<osg::Image> image = _imageReader.shared().once(file, {}, [&] {
                 const osg::ref_ptr<osg::Image> read =
-                    _pictures.readFile(file, [&]() -> osg::ref_ptr<osg::Image> {
+                    _imageReader.readFile(file, [&]() -> osg::ref_ptr<osg::Image> {
                         result = _next->readImage(file, options);
                         return result.getImage();
                     });
@@ -152,12 +144,11 @@ private:
         const Deeper deeper(_depth);
         try {
             if (osgDB::containsServerAddress(name))
-                failFile(name, "cannot open: an address, expected a file");
+                failFile(name, "cannot open: network addresses are not read");
             requireOnlyRead(name);
-            if (_depth > kDeepestRead)
-                failFile(name,
-                         "read for more than " + std::to_string(kDeepestRead) +
-                             " others, expected fewer files and pseudo-loaders in each other");
+            if (_depth > kMaxNestedReads)
+                failFile(name, "files and pseudo-loaders are nested more than " +
+                                   std::to_string(kMaxNestedReads) + " deep");
             return read();
         } catch (const Error& error) {
             if (_reason.empty()) _reason = error.what();
@@ -178,7 +169,7 @@ private:
                 return next(name);
             }
             requireReadable(found, _limits);
-            if (isOurFormat(found)) return Result(readMeshScene(found, options).get());
+            if (formatOf(found).hasOwnReader()) return Result(readMeshScene(found, options).get());
             Result result = next(found);
             if (!osgSceneFormat(found).empty() && result.getNode() != nullptr)
                 checkScene(*result.getNode(), found);
@@ -197,7 +188,7 @@ private:
     }
 
     const ReadLimits _limits;
-    PictureReader _pictures;
+    ImageReader _imageReader;
     osg::ref_ptr<osgDB::ReadFileCallback> _next;
     bool _isOsgNext = false; ///< no application callback, which may accept other names
     std::string _reason;
@@ -219,8 +210,8 @@ osg::ref_ptr<osg::Node> readScene(const std::string& path, const osgDB::Options*
     const std::string& reason = read.message();
     // A pseudo-loader's name is not a file, and has its own reason.
     if (reason.empty() || read.notFound()) requireReadable(path, ReadLimits::of(options));
-    failFile(path,
-             reason.empty() ? "no reader of Assimp or OpenSceneGraph knows this file" : reason);
+    failFile(path, reason.empty() ? "neither Assimp nor OpenSceneGraph has a reader for this file"
+                                  : reason);
 }
 
 } // namespace osgSkin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/ClipNames.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>

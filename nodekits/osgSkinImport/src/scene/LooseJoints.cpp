@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Attaches joints that an editor's constraints held in place.
+#include "files/FileText.h"
 #include "scene/SceneSkeleton.h"
 #include "scene/SceneTracks.h"
 #include "scene/SourceScene.h"
-#include "text/FileText.h"
 
 #include <osgSkinRig/JointRoles>
 
@@ -241,10 +241,10 @@ void attachLooseJoints(SourceScene& scene, const std::string& path, const ReadLi
         if (attached++ == 0) first = nameOf(pair.joint) + " follows " + nameOf(pair.carrier);
     }
     if (attached > 0)
-        tellOf(path, std::to_string(attached) +
-                         " joints hang elsewhere than on the limb that they belong to, and are "
-                         "attached to it: " +
-                         first);
+        warn(path, std::to_string(attached) +
+                       " joints are not below the limb that they belong to, and are attached "
+                       "to it: " +
+                       first);
 }
 
 } // namespace osgSkin

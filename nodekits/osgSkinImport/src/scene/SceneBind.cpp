@@ -71,7 +71,7 @@ private:
     /// The weighted bone at `node`, or the nearest above it. Caches the result for all nodes on the
     /// path.
     const Seat* nextAbove(const SourceNode* node) {
-        std::vector<const SourceNode*> way;
+        std::vector<const SourceNode*> path;
         const Seat* result = nullptr;
         for (; node != nullptr; node = _bind.parent(*node)) {
             const auto known = _above.find(node);
@@ -79,13 +79,13 @@ private:
                 result = known->second;
                 break;
             }
-            way.push_back(node);
+            path.push_back(node);
             const auto here = _at.find(node);
             if (here == _at.end()) continue;
             result = here->second;
             break;
         }
-        for (const SourceNode* passed : way) _above[passed] = result;
+        for (const SourceNode* passed : path) _above[passed] = result;
         return result;
     }
 
@@ -141,8 +141,8 @@ std::vector<const SourceBone*> reliableInverseBinds(const SourceMesh& mesh, cons
     return result;
 }
 
-constexpr double kOneScale = 0.01;               ///< relative
-constexpr double kOnePlace = 0.01;               ///< relative to the bones' extent
+constexpr double kSameScale = 0.01;              ///< relative
+constexpr double kSamePosition = 0.01;           ///< relative to the bones' extent
 constexpr double kMinPosed = glm::radians(1.0);  ///< minimum rotation of a posed bone
 constexpr double kMaxPosed = glm::radians(45.0); ///< above this, probably another up axis
 constexpr double kStraight = 1e-3;
@@ -179,7 +179,7 @@ bool isPosed(const std::vector<const SourceBone*>& bones, const SourceBone& topm
              const glm::dmat4& above, const glm::dmat4& byBone, const glm::dmat4& byMesh) {
     if (!isAlongAxes(above) || !isAlongAxes(byMesh)) return false;
     const double scale = scaleOf(byMesh);
-    if (!(scale > 0.0) || !(std::abs(scaleOf(byBone) / scale - 1.0) < kOneScale)) return false;
+    if (!(scale > 0.0) || !(std::abs(scaleOf(byBone) / scale - 1.0) < kSameScale)) return false;
     const glm::dmat4 bound = glm::inverse(topmost.offset);
     double extent = 0.0;
     for (const SourceBone* bone : bones) {
@@ -196,7 +196,8 @@ bool isPosed(const std::vector<const SourceBone*>& bones, const SourceBone& topm
     if (turned < kMaxPosed) return moved < kFarthestPosed * extent;
     // A rotation of the whole figure about the mesh's origin would move the bone.
     const glm::dvec3 arm = place - glm::dvec3(byMesh[3]);
-    return moved < kOnePlace * extent && glm::distance(turn * arm, arm) > 10.0 * kOnePlace * extent;
+    return moved < kSamePosition * extent &&
+           glm::distance(turn * arm, arm) > 10.0 * kSamePosition * extent;
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/SceneMesh.h"
 
+#include "files/FileText.h"
 #include "scene/SceneBind.h"
 #include "scene/SceneSkeleton.h"
-#include "text/FileText.h"
 
 #include <osgSkin/GlmOsg>
 
@@ -32,19 +32,19 @@ glm::vec4 toSrgb(const glm::vec4& linear) {
 
 /// An image embedded in the file; null if it cannot be decoded.
 osg::ref_ptr<osg::Image> decodeImage(const SourceImage& source, const std::string& path,
-                                     PictureReader& pictures) {
-    return source.image ? source.image : pictures.read(path, source.format, source.bytes);
+                                     ImageReader& imageReader) {
+    return source.image ? source.image : imageReader.read(path, source.format, source.bytes);
 }
 
 /// State sets of the materials, and vertex colours.
-class Looks {
+class Materials {
 public:
-    Looks(const SourceScene& scene, const std::string& path, const osgDB::Options* options)
+    Materials(const SourceScene& scene, const std::string& path, const osgDB::Options* options)
         : _scene(scene) {
         for (const auto& mesh : scene.meshes) _hasColours = _hasColours || !mesh->colours.empty();
         TextureReads reads(path, options);
         for (const SourceMaterial& source : scene.materials) {
-            Material material = source.look;
+            Material material = source.material;
             for (std::size_t map = 0; map < Material::kMaps; ++map)
                 material.textures[map].image = imageOf(source.textures[map], path, options, reads);
             // Without its texture, the colour would make the whole surface glow.
@@ -62,7 +62,7 @@ public:
     /// A vertex's colour in sRGB; its material's if it has none.
     glm::vec4 colour(const SourceMesh& mesh, std::size_t vertex) const {
         const SourceMaterial& material = _scene.materials[mesh.material];
-        const osg::Vec4& diffuse = material.look.diffuse;
+        const osg::Vec4& diffuse = material.material.diffuse;
         const glm::vec4 plain(diffuse.r(), diffuse.g(), diffuse.b(), diffuse.a());
         if (mesh.colours.empty()) return plain;
         const glm::vec4& own = mesh.colours[vertex];
@@ -76,10 +76,10 @@ private:
     osg::ref_ptr<osg::Image> imageOf(const SourceTexture& texture, const std::string& path,
                                      const osgDB::Options* options, TextureReads& reads) const {
         if (!texture.image) return readTexture(texture.name, path, options, reads);
-        PictureReader& pictures = reads.pictures();
+        ImageReader& imageReader = reads.imageReader();
         return reads.once(texture.name, [&] {
-            return pictures.shared().once(path, texture.name, [&] {
-                return decodeImage(*_scene.images[*texture.image], path, pictures);
+            return imageReader.shared().once(path, texture.name, [&] {
+                return decodeImage(*_scene.images[*texture.image], path, imageReader);
             });
         });
     }
@@ -243,11 +243,12 @@ std::vector<glm::dmat4> perVertexBindPose(const SourceMesh& mesh, const glm::dma
     if (mesh.bones.empty()) return {};
     osg::BoundingBoxd box;
     for (const glm::vec3& vertex : mesh.positions) box.expandBy(toOsg(placed(toScene, vertex)));
-    const double most = box.valid() ? kOff * 2.0 * box.radius() : 0.0;
+    const double tolerance = box.valid() ? kOff * 2.0 * box.radius() : 0.0;
     bool isApart = false;
     forEachWeight(mesh, toScene, bind, [&](const SourceBone::Weight& entry, const glm::dmat4& own) {
         const glm::vec3& vertex = mesh.positions[entry.vertex];
-        isApart = isApart || glm::distance(placed(own, vertex), placed(toScene, vertex)) > most;
+        isApart =
+            isApart || glm::distance(placed(own, vertex), placed(toScene, vertex)) > tolerance;
     });
     if (!isApart) return {};
     std::vector<glm::dmat4> result(mesh.positions.size(), glm::dmat4(0.0));
@@ -300,7 +301,7 @@ glm::dmat3 normalMatrixOf(const glm::dmat4& toScene) {
 /// own matrix if `apart` is not empty.
 void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
              const std::vector<glm::dmat4>& apart, const std::vector<std::uint32_t>& indices,
-             const Looks& looks, CornerMesh& result) {
+             const Materials& materials, CornerMesh& result) {
     for (std::size_t v = 0; v < indices.size(); ++v)
         if (indices[v] != kUnused)
             result.mesh.positions.push_back(
@@ -324,7 +325,7 @@ void addMesh(const SourceMesh& source, const glm::dmat4& toScene,
             const glm::vec2 texCoord =
                 source.texCoords.empty() ? glm::vec2(0.0f) : source.texCoords[v];
             result.addCorner(indices[v], glm::vec3(normal), texCoord);
-            if (looks.hasColours()) result.colours.push_back(looks.colour(source, v));
+            if (materials.hasColours()) result.colours.push_back(materials.colour(source, v));
             if (source.tangents.empty()) continue;
             result.tangents.resize(result.normals.size(), glm::vec4(0.0f));
             const glm::vec4& tangent = source.tangents[v];
@@ -402,11 +403,10 @@ void addWeights(const SourceMesh& source, const SourceNode* above,
         if (index != kUnused) weights.entries.push_back({index, 1.0});
 }
 
-void tellOfSome(const std::string& path, const std::set<std::string>& names,
+void warnOfSome(const std::string& path, const std::set<std::string>& names,
                 const std::string& what) {
     if (!names.empty())
-        tellOf(path,
-               std::to_string(names.size()) + what + ", \"" + *names.begin() + "\" among them");
+        warn(path, std::to_string(names.size()) + what + ", \"" + *names.begin() + "\" among them");
 }
 
 } // namespace
@@ -414,8 +414,8 @@ void tellOfSome(const std::string& path, const std::set<std::string>& names,
 CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
                          const osgDB::Options* options) {
     CornerMesh result;
-    const Looks looks(scene, path, options);
-    result.stateSets = looks.stateSets;
+    const Materials materials(scene, path, options);
+    result.stateSets = materials.stateSets;
 
     const SceneBind bind(scene);
     const std::set<const SourceNode*> joints = jointsOfSkins(scene, bind);
@@ -440,12 +440,12 @@ CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
             const auto indices = indicesOf(mesh, result.mesh.positions.size(), where);
             const glm::dmat4 toScene = bind.mesh(*node, index);
             const auto apart = perVertexBindPose(mesh, toScene, bind);
-            addMesh(mesh, toScene, apart, indices, looks, result);
+            addMesh(mesh, toScene, apart, indices, materials, result);
             addMorphs(mesh, toScene, apart, indices, morphs, result);
             addWeights(mesh, above, indices, where, result);
         }
-    tellOfSome(path, leftOut, " things beside the figure are left out");
-    tellOfSome(path, unmoved, " things that clips move beside the skeleton stand still");
+    warnOfSome(path, leftOut, " objects beside the figure are left out");
+    warnOfSome(path, unmoved, " objects beside the skeleton are moved by clips; they stay still");
     return result;
 }
 

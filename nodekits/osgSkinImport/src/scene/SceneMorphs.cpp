@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/SceneMorphs.h"
 
-#include "text/FileText.h"
+#include "files/FileText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@ using Lists = std::vector<glm::vec3> MorphTarget::*;
 constexpr float kRounding = 2.5e-7f; ///< relative to the largest coordinate
 constexpr float kTurned = 1e-4f;     ///< a change of a normal or a tangent that counts
 
-/// Adds the vertices that are moved farther than `least`, in increasing order.
-void addMoved(const VertexOffsets& from, float least, std::vector<std::uint32_t>& vertices) {
+/// Adds the vertices that are moved farther than `min`, in increasing order.
+void addMoved(const VertexOffsets& from, float min, std::vector<std::uint32_t>& vertices) {
     const std::size_t before = vertices.size();
     for (std::size_t i = 0; i < from.vertices.size(); ++i) {
         const glm::vec3& offset = from.offsets[i];
         for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(offset[axis]) <= least)) { // also NaN, which is refused later
+            if (!(std::abs(offset[axis]) <= min)) { // also NaN, which is refused later
                 vertices.push_back(from.vertices[i]);
                 break;
             }
@@ -67,10 +67,10 @@ std::vector<std::string> MorphNames::of(const std::vector<std::string>& wanted,
     return result;
 }
 
-void MorphNames::tell(const std::string& path) const {
+void MorphNames::warnRenamed(const std::string& path) const {
     if (_renamed > 0)
-        tellOf(path, "morph targets or expressions are called alike; " + std::to_string(_renamed) +
-                         " got a name of their own, as " + inQuotes(_first));
+        warn(path, "morph targets or expressions share names; " + std::to_string(_renamed) +
+                       " were renamed, the first to " + inQuotes(_first));
 }
 
 MorphFiller::MorphFiller(const SourceMesh& mesh) {

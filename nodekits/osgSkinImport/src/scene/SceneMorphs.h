@@ -4,8 +4,8 @@
 #ifndef OSGSKINIMPORT_SCENE_SCENEMORPHS_H
 #define OSGSKINIMPORT_SCENE_SCENEMORPHS_H
 
+#include "files/UniqueName.h"
 #include "scene/SourceScene.h"
-#include "text/UniqueName.h"
 
 #include <osgSkin/MorphTargets>
 
@@ -36,7 +36,7 @@ public:
                                 const std::vector<float>& initial);
 
     /// Reports targets that did not get the name of the file.
-    void tell(const std::string& path) const;
+    void warnRenamed(const std::string& path) const;
 
 private:
     /// The file's name, which of the mesh's targets of that name it is, and the initial weight.

@@ -2,8 +2,8 @@
 // Repairs a scene in which bones and tracks refer to nodes by name.
 #include "scene/SourceScene.h"
 
-#include "text/FileText.h"
-#include "text/UniqueName.h"
+#include "files/FileText.h"
+#include "files/UniqueName.h"
 
 #include <osgDB/FileNameUtils>
 
@@ -149,9 +149,8 @@ void addMissingBones(SourceScene& scene, const std::string& path) {
                                            above.offset * glm::inverse(bone.offset));
             nodes.emplace(bone.name, node);
             missing.setNode(*found, node);
-            tellOf(path, "bone \"" + bone.name +
-                             "\" has weights and no place in the skeleton; it follows \"" +
-                             above.name + '"');
+            warn(path, "bone \"" + bone.name + "\" has weights but no node; it follows \"" +
+                           above.name + '"');
         }
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/SceneSkeleton.h"
 
+#include "files/FileText.h"
 #include "scene/SceneBind.h"
-#include "text/FileText.h"
 
 #include <osgSkin/Error>
 

@@ -79,7 +79,7 @@ struct SourceTexture {
 };
 
 struct SourceMaterial {
-    Material look;         ///< without images
+    Material material;     ///< without images
     bool isLinear = false; ///< vertex colours are linear, and multiplied with the material's
     std::array<SourceTexture, Material::kMaps> textures;
 };
