@@ -106,7 +106,7 @@ struct CountTriangles {
 
 } // namespace
 
-TEST(CrowdOfALoadedCharacter, HasItsClipsByName) {
+TEST(CrowdOfALoadedCharacter, FindsClipsByName) {
     const osg::ref_ptr<osg::Node> loaded = loadThrower();
     for (const osg::ref_ptr<osg::Node>& node : {loaded, savedAndReadAgain(*loaded)}) {
         const auto character = CrowdCharacter::create(*node);
@@ -127,7 +127,7 @@ TEST(CrowdOfALoadedCharacter, HasItsClipsByName) {
     }
 }
 
-TEST(CrowdOfALoadedCharacter, IsThePictureOfItsCopies) {
+TEST(CrowdOfALoadedCharacter, MatchesPictureOfItsCopies) {
     const osg::ref_ptr<osg::Node> loaded = loadThrower();
     const auto character = CrowdCharacter::create(*loaded);
     const auto copies = osgSkin::ClipCharacter::create(*loaded);
@@ -155,7 +155,7 @@ TEST(CrowdOfALoadedCharacter, IsThePictureOfItsCopies) {
     EXPECT_LE(test::unlikePixels(*pictureOf(inProgram(crowd), sphere), *expected), 40u);
 }
 
-TEST(CrowdOfALoadedCharacter, LeavesOutWhatIsHiddenAndMovesNestedParts) {
+TEST(CrowdOfALoadedCharacter, OmitsHiddenPartsAndMovesNestedParts) {
     const osg::ref_ptr<osg::Node> loaded = loadThrower();
     const auto all = CrowdCharacter::create(*loaded);
     osgSkin::RigidPart& part = *test::findNodes<osgSkin::RigidPart>(*loaded).at(0).node;
@@ -175,7 +175,7 @@ TEST(CrowdOfALoadedCharacter, LeavesOutWhatIsHiddenAndMovesNestedParts) {
     EXPECT_EQ(CrowdCharacter::create(*loaded)->parts().size(), all->parts().size() - 1);
 }
 
-TEST(CrowdOfALoadedCharacter, DrawsAtMostSixtyTrianglesOfAMemberThatIsFar) {
+TEST(CrowdOfALoadedCharacter, DrawsAtMostSixtyTrianglesOfDistantMembers) {
     const auto character = CrowdCharacter::create(*loadThrower());
     EXPECT_GT(character->levelCount(), 3u);
     EXPECT_LE(character->triangleCount(character->levelCount() - 1), CrowdCharacter::kFarTriangles);

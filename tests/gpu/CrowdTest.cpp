@@ -89,7 +89,7 @@ std::pair<std::size_t, unsigned int> workOfAFrame(CrowdCharacter* character, std
 
 } // namespace
 
-TEST_F(Crowd, IsThePictureOfItsSkins) {
+TEST_F(Crowd, MatchesPictureOfItsSkins) {
     const auto expected = pictureOf(inProgram(subject.skins(kTime)));
     const auto other = pictureOf(inProgram(subject.skins(0.0)));
     const auto character = subject.character();
@@ -104,7 +104,7 @@ TEST_F(Crowd, IsThePictureOfItsSkins) {
 
 /// A crowd that has gone before its window closes leaves nothing behind that a crowd in the next
 /// window, whose context has the same number, would take for its own.
-TEST_F(Crowd, IsDrawnInTheNextWindowToo) {
+TEST_F(Crowd, DrawsInASecondWindow) {
     osg::ref_ptr<osg::Image> pictures[2];
     for (osg::ref_ptr<osg::Image>& picture : pictures) {
         osg::ref_ptr<osg::Node> crowd = crowdOf(subject.character(), subject.members);
@@ -121,7 +121,7 @@ TEST_F(Crowd, IsDrawnInTheNextWindowToo) {
     EXPECT_EQ(test::unlikePixels(*pictures[0], *pictures[1]), 0u);
 }
 
-TEST_F(Crowd, PalettesClipsAndCommandsGiveOnePicture) {
+TEST_F(Crowd, PalettesClipsAndCommandsGiveTheSamePicture) {
     const auto character = subject.character(kTime);
     const osg::ref_ptr<GpuCrowd> indirect = crowdOf(character, subject.members);
     const auto expected = pictureOf(indirect);
@@ -135,7 +135,7 @@ TEST_F(Crowd, PalettesClipsAndCommandsGiveOnePicture) {
 }
 
 /// Such as a program for normal maps, which draws other figures.
-TEST_F(Crowd, LeavesProgramsThatDrawNoMembers) {
+TEST_F(Crowd, ReplacesProgramsThatDrawNoMembers) {
     const osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
     const osg::ref_ptr<osg::Program> program = new osg::Program;
     program->addShader(new osg::Shader(osg::Shader::VERTEX,
@@ -177,7 +177,7 @@ TEST_F(Crowd, BlendsTwoClips) {
     EXPECT_LE(test::unlikePixels(*withBlend(0.5f), *one), 20u);
 }
 
-TEST_F(Crowd, TheCardAndTheProcessorChooseTheSameLevels) {
+TEST_F(Crowd, GpuAndCpuChooseTheSameLevels) {
     const auto character = subject.character();
     const std::size_t all = character->triangleCount(0);
     const std::size_t fewer = character->addLevel(0.4, 0.2);
@@ -195,7 +195,7 @@ TEST_F(Crowd, TheCardAndTheProcessorChooseTheSameLevels) {
     }
 }
 
-TEST_F(Crowd, TenThousandMembersTakeNoTimeOfTheProcessor) {
+TEST_F(Crowd, TenThousandMembersNeedLittleCpuTime) {
     const CrowdSubject many(10000);
     CrowdSubject few(2);
     const auto character = few.character();
@@ -221,7 +221,7 @@ TEST_F(Crowd, TenThousandMembersTakeNoTimeOfTheProcessor) {
     crowd->releaseGLObjects(nullptr);
 }
 
-TEST_F(Crowd, TheProcessorsWorkDoesNotGrowWithTheMembers) {
+TEST_F(Crowd, CpuTimeDoesNotGrowWithMembers) {
     const auto character = subject.character();
     character->addLevel(0.4, 0.2);
     const auto few = workOfAFrame(character, 10);
@@ -273,7 +273,7 @@ CrowdCharacter::Samples restSamples(std::size_t count) {
 
 } // namespace
 
-TEST(CrowdCharacter, RefusesWhatDoesNotFit) {
+TEST(CrowdCharacter, RejectsInvalidInput) {
     const CrowdSubject subject(1);
     EXPECT_THROW(osg::ref_ptr<GpuCrowd>(new GpuCrowd(new CrowdCharacter)), Error);
     const osg::ref_ptr<osg::Geometry> nothing = new osg::Geometry;
@@ -286,7 +286,7 @@ TEST(CrowdCharacter, RefusesWhatDoesNotFit) {
     EXPECT_THROW(character->addRigid(*nothing, nullptr, 9, "end"), Error);
 }
 
-TEST(CrowdCharacter, KeepsNoClipThatItRefuses) {
+TEST(CrowdCharacter, ForgetsRejectedClips) {
     const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;
     character->addSkin(*skinOfLargePalettes(), osg::Matrixd());
     EXPECT_THROW(character->addClip(restSamples(25000), 30.0, true), Error) << "texels";
@@ -301,7 +301,7 @@ TEST(CrowdCharacter, KeepsNoClipThatItRefuses) {
     EXPECT_LT(character->bounds().xMax(), 100.0f);
 }
 
-TEST(CrowdCharacter, ClipsNeedRatesThatShadersHave) {
+TEST(CrowdCharacter, RejectsRatesThatShadersLack) {
     const auto character = CrowdSubject(1).character();
     for (const double rate : {0.0, -1.0, kNaN, kInf, 1e39, 1e-46})
         EXPECT_THROW(character->addClip(restSamples(2), rate, true), Error) << rate;
@@ -363,7 +363,7 @@ TEST(CrowdCharacter, LevelsGrowCoarserAcrossHardEdges) {
     }
 }
 
-TEST(CrowdCharacter, RefusesTrianglesOfVerticesThatAreNotThere) {
+TEST(CrowdCharacter, RejectsTrianglesWithMissingVertices) {
     const CrowdSubject subject(1);
     const osg::ref_ptr<CrowdCharacter> character = new CrowdCharacter;
     for (const GLuint beyond : {72u, 4000000000u}) {
@@ -386,7 +386,7 @@ TEST(CrowdCharacter, RefusesTrianglesOfVerticesThatAreNotThere) {
     EXPECT_THROW(character->addSkin(*test::makeSkin(), osg::Matrixd::scale(1, kNaN, 1)), Error);
 }
 
-TEST(CrowdCharacter, TellsOnceThatMembersDoNotMorph) {
+TEST(CrowdCharacter, WarnsOnceAboutMorphs) {
     osgSkin::MorphTarget smile;
     smile.name = "smile";
     smile.vertices = {3};
@@ -401,7 +401,7 @@ TEST(CrowdCharacter, TellsOnceThatMembersDoNotMorph) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
-TEST(CrowdCharacter, StaysAsItIsOnceACrowdIsMadeOfIt) {
+TEST(CrowdCharacter, CannotChangeOnceACrowdUsesIt) {
     const CrowdSubject subject(2);
     const auto character = subject.character();
     const osg::ref_ptr<GpuCrowd> crowd = new GpuCrowd(character);
@@ -410,7 +410,7 @@ TEST(CrowdCharacter, StaysAsItIsOnceACrowdIsMadeOfIt) {
     EXPECT_THROW(character->addRigid(subject.knob(), nullptr, 0, "end"), Error);
 }
 
-TEST(GpuCrowd, RefusesMembersThatItCannotShow) {
+TEST(GpuCrowd, RejectsInvalidMembers) {
     const CrowdSubject subject(2);
     const auto character = subject.character();
     const osg::ref_ptr<GpuCrowd> crowd = new GpuCrowd(character);
@@ -469,18 +469,18 @@ unsigned int seenOf(osg::Drawable::DrawCallback* draw) {
 
 } // namespace
 
-TEST_F(CrowdLimits, BuffersThatTheDriverDoesNotReadAreNotDrawn) {
+TEST_F(CrowdLimits, DoesNotDrawBuffersTooLargeForTheDriver) {
     EXPECT_GT(seenOf(new TexelCheck(65536, nullptr)), 1000u) << "what OpenGL promises";
     EXPECT_EQ(seenOf(new TexelCheck(std::numeric_limits<std::size_t>::max(), nullptr)), 0u);
 }
 
-TEST_F(CrowdLimits, ADrawableIsDrawnByItsOwnCallback) {
+TEST_F(CrowdLimits, UsesDrawCallbacksOfDrawables) {
     const osg::ref_ptr<CountedDraw> own = new CountedDraw;
     EXPECT_GT(seenOf(new TexelCheck(1, own)), 1000u);
     EXPECT_GT(own->count, 0);
 }
 
-TEST_F(CrowdLimits, MoreMembersThanADispatchLooksAtAreDrawn) {
+TEST_F(CrowdLimits, DrawsMoreMembersThanOneDispatchCulls) {
     constexpr std::size_t kMost = std::size_t{65535} * 64;
     const auto character = subject.character();
     CrowdInstance away = subject.members.front();
@@ -530,7 +530,7 @@ protected:
 
 } // namespace
 
-TEST_F(CulledCrowd, DrawnOverAndOverTakesNoMoreMemory) {
+TEST_F(CulledCrowd, DoesNotGrowInMemory) {
     std::set<const osg::Drawable*> drawables;
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     for (unsigned int i = 0; i < 300; ++i) {
@@ -545,7 +545,7 @@ TEST_F(CulledCrowd, DrawnOverAndOverTakesNoMoreMemory) {
     EXPECT_LE(drawables.size(), 3 * character->parts().size());
 }
 
-TEST_F(CulledCrowd, WhatWaitsForItsDrawIsNotListedAnew) {
+TEST_F(CulledCrowd, DoesNotCullAgainBeforeItsDraw) {
     const osg::ref_ptr<osgUtil::CullVisitor> one = stage.cullVisitor(), other = stage.cullVisitor();
     crowd->traverse(*one);
     crowd->traverse(*other);
@@ -556,7 +556,7 @@ TEST_F(CulledCrowd, WhatWaitsForItsDrawIsNotListedAnew) {
     for (const osg::Drawable* drawable : ofOther) EXPECT_EQ(ofOne.count(drawable), 0u);
 }
 
-TEST_F(CrowdScene, BelowTwoParentsIsTheSameAsTwoCrowds) {
+TEST_F(CrowdScene, TwoParentsMatchTwoCrowds) {
     const auto character = subject.character();
     const osg::Vec3d aside(9.0, 2.0, 0.0), back(-6.0, 7.0, 1.0);
     const osg::ref_ptr<GpuCrowd> one = crowdOf(character, subject.members);
@@ -574,7 +574,7 @@ TEST_F(CrowdScene, BelowTwoParentsIsTheSameAsTwoCrowds) {
     }
 }
 
-TEST_F(CrowdScene, PlaysForYearsAsAtFirst) {
+TEST_F(CrowdScene, PlaysAfterYears) {
     const auto character = subject.character();
     const auto expected = pictureOf(crowdOf(character, subject.members));
     // Whole loops of the clips, of 0.8 s.
@@ -593,7 +593,7 @@ TEST_F(CrowdScene, PlaysForYearsAsAtFirst) {
     EXPECT_EQ(test::unlikePixels(*pictureOf(crowd), *expected), 0u);
 }
 
-TEST_F(CrowdScene, FollowsSamplesThatLeaveItsBounds) {
+TEST_F(CrowdScene, GrowsBoundsWithSamples) {
     std::vector<CrowdInstance> members = subject.posedMembers();
     for (CrowdInstance& member : members) {
         member.rotation = osg::Quat();
@@ -622,7 +622,7 @@ TEST_F(CrowdScene, FollowsSamplesThatLeaveItsBounds) {
     }
 }
 
-TEST_F(CrowdScene, IsSeenWholeWhereNearAndFarComeFromPrimitives) {
+TEST_F(CrowdScene, IsNotClippedWithNearFarByPrimitives) {
     const auto character = subject.character();
     const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
     const auto expected = pictureOf(crowd);
@@ -634,7 +634,7 @@ TEST_F(CrowdScene, IsSeenWholeWhereNearAndFarComeFromPrimitives) {
     }
 }
 
-TEST_F(CrowdScene, IsComputedBeforeItsDrawsInOthersBins) {
+TEST_F(CrowdScene, ComputesBeforeDrawsInOtherBins) {
     const auto character = subject.character();
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(crowdOf(character, subject.members));
@@ -656,7 +656,7 @@ TEST_F(CrowdScene, IsComputedBeforeItsDrawsInOthersBins) {
     root->releaseGLObjects(nullptr);
 }
 
-TEST_F(CrowdScene, RigidPartsKeepTheStateOfTheirOwn) {
+TEST_F(CrowdScene, RigidPartsKeepTheirState) {
     const osg::ref_ptr<osg::StateSet> red = new osg::StateSet;
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(1, 0, 0, 1));
@@ -669,7 +669,7 @@ TEST_F(CrowdScene, RigidPartsKeepTheStateOfTheirOwn) {
     EXPECT_EQ(test::unlikePixels(*is, *expected), 0u);
 }
 
-TEST_F(CrowdScene, CopiesAreCrowdsOfTheirOwn) {
+TEST_F(CrowdScene, CopiesAreIndependent) {
     const auto character = subject.character();
     const osg::ref_ptr<GpuCrowd> crowd = crowdOf(character, subject.members);
     const auto expected = pictureOf(crowd);

@@ -123,7 +123,7 @@ using Hint = osg::DisplaySettings::VertexBufferHint;
 
 } // namespace
 
-TEST_P(GpuPicture, IsTheProcessors) {
+TEST_P(GpuPicture, MatchesTheCpu) {
     GpuSubject subject(GetParam().subject);
     ASSERT_EQ(subject.reason, "");
     subject.poses = 4; // more of them would be too similar
@@ -162,7 +162,7 @@ class GpuThreads : public testing::TestWithParam<ViewerBase::ThreadingModel> {};
 
 } // namespace
 
-TEST_P(GpuThreads, OneDispatchAndBarrierAPoseAndContext) {
+TEST_P(GpuThreads, OneDispatchAndBarrierPerPoseAndContext) {
     GpuSubject subject("tube");
     osgSkin::setGpu(*subject.scene, true);
     const unsigned int contexts = 2, poses = 10;
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Models, GpuThreads,
                                          ViewerBase::DrawThreadPerContext,
                                          ViewerBase::CullThreadPerCameraDrawThreadPerContext));
 
-TEST(OldDriver, TheProcessorsPictureIsDrawn) {
+TEST(OldDriver, FallsBackToTheCpu) {
     GpuSubject subject("tube");
     GpuStage stage(subject.scene);
     stage.draw(0.3);
@@ -235,7 +235,7 @@ std::vector<std::string> subjects() {
 
 } // namespace
 
-TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
+TEST_P(GpuSkin, PositionsNormalsAndTangentsMatchTheCpu) {
     GpuSubject subject(GetParam());
     if (!subject.reason.empty()) GTEST_SKIP() << subject.reason;
     osgSkin::setGpu(*subject.scene, true);
@@ -262,7 +262,7 @@ TEST_P(GpuSkin, PositionsNormalsAndTangentsAreTheProcessors) {
 }
 
 /// At the limits of bone scale the squared length of a direction is beyond single precision.
-TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
+TEST(GpuSkinScale, NormalsMatchTheCpuAtAnyScale) {
     const test::SlopedTube tube;
     for (const double scale : {0.99e9, 1.01e-9})
         for (const std::size_t scaled : {1u, 2u}) {
@@ -284,7 +284,7 @@ TEST(GpuSkinScale, NormalsAreTheProcessorsWhateverTheScale) {
 }
 
 /// As a crowd: see CrowdTest.cpp.
-TEST(GpuSkinState, SkinsAreDrawnInTheNextWindowToo) {
+TEST(GpuSkinState, DrawsInASecondWindow) {
     osg::ref_ptr<osg::Image> pictures[2];
     for (osg::ref_ptr<osg::Image>& picture : pictures) {
         osg::ref_ptr<osg::Group> scene = new osg::Group;
@@ -303,7 +303,7 @@ TEST(GpuSkinState, SkinsAreDrawnInTheNextWindowToo) {
     EXPECT_EQ(test::unlikePixels(*pictures[0], *pictures[1]), 0u);
 }
 
-TEST(GpuSkinState, WhatIsDrawnUsesVertexArrayObjectsAsTheSkinDoes) {
+TEST(GpuSkinState, KeepsUseOfVertexArrayObjects) {
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = test::makeSkin();
     osgSkin::setGpu(*skin, true);
     GpuStage stage(skin);
@@ -318,7 +318,7 @@ TEST(GpuSkinState, WhatIsDrawnUsesVertexArrayObjectsAsTheSkinDoes) {
     skin->releaseGLObjects(nullptr);
 }
 
-TEST(GpuOption, SwitchesTheReadersSkins) {
+TEST(GpuOption, SwitchesSkinsOfLoadedScenes) {
     const std::string file = std::string(OSGSKIN_DATA) + "/thrower.skin";
     for (const char* option : {"gpu=on", "gpu=off"}) {
         const osg::ref_ptr<osg::Node> scene =
@@ -337,7 +337,7 @@ TEST(GpuOption, SwitchesTheReadersSkins) {
     EXPECT_FALSE(osgDB::readRefNodeFile(file, new osgDB::Options("gpu=perhaps")));
 }
 
-TEST_P(GpuSkin, TheSameBitsTwice) {
+TEST_P(GpuSkin, GivesTheSameBitsTwice) {
     GpuSubject subject(GetParam());
     if (!subject.reason.empty()) GTEST_SKIP() << subject.reason;
     osgSkin::setGpu(*subject.scene, true);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // osgskinbake's output looks like the character: materials, textures, vertex colours.
 #include "Command.h"
+#include "ExpectContains.h"
 #include "GlbFile.h"
 
 #include <osgSkinImport/ImportMesh>
@@ -173,7 +174,7 @@ void expectValid(const std::string& glb) {
 
 } // namespace
 
-TEST(BakeMaterials, MapsAreLeftOutAndReported) {
+TEST(BakeMaterials, ReportsMapsThatAreLeftOut) {
     const std::string folder = test::makeTestFolder();
     const std::string rig = texturedRig(folder);
     nlohmann::json gltf = test::readJson(rig);
@@ -183,8 +184,7 @@ TEST(BakeMaterials, MapsAreLeftOutAndReported) {
     const test::CommandResult result =
         test::runBake("'" + rig + ".skin' --frames 0 --out baked.glb", folder);
     EXPECT_EQ(result.status, 0);
-    EXPECT_NE(result.err.find("normal, occlusion and emission maps left out"), std::string::npos)
-        << result.err;
+    test::expectContains(result.err, "normal, occlusion and emission maps left out");
     const Glb glb(folder + "/baked.glb");
     const nlohmann::json& material = glb.json["materials"].at(0);
     EXPECT_EQ(material.count("normalTexture"), 0u);
@@ -193,7 +193,7 @@ TEST(BakeMaterials, MapsAreLeftOutAndReported) {
     EXPECT_EQ(material["pbrMetallicRoughness"].count("baseColorTexture"), 1u);
 }
 
-TEST(BakeMaterials, RiggedModelKeepsMaterialAndTexture) {
+TEST(BakeMaterials, KeepsMaterialAndTextureOfRiggedModel) {
     const std::string folder = test::makeTestFolder();
     const std::string rig = texturedRig(folder);
     bake("'" + rig + ".skin' --rate 10 --out baked.glb", folder);
@@ -229,7 +229,7 @@ TEST(BakeMaterials, RiggedModelKeepsMaterialAndTexture) {
     expectValid(folder + "/baked.glb");
 }
 
-TEST(BakeMaterials, RiggedModelsClipIsSampled) {
+TEST(BakeMaterials, SamplesClipOfRiggedModel) {
     const std::string folder = test::makeTestFolder();
     bake("'" OSGSKIN_TEST_DATA "/rig/tube.gltf' --rate 10 --out baked.glb --pose pose.json",
          folder);
@@ -247,19 +247,19 @@ TEST(BakeMaterials, RiggedModelsClipIsSampled) {
     const auto last = test::runBake(
         "'" OSGSKIN_TEST_DATA "/rig/tube.gltf.skin' --motion dance --frames 0 --out a.glb", folder);
     EXPECT_EQ(last.status, 2);
-    EXPECT_NE(last.err.find("expected one of \"wave\", \"move\""), std::string::npos) << last.err;
+    test::expectContains(last.err, "expected one of \"wave\", \"move\"");
     bake("'" OSGSKIN_TEST_DATA "/rig/tube.gltf.skin' --rest rest.obj --binding b.json", folder);
     EXPECT_EQ(osgSkin::importMesh(folder + "/rest.obj").mesh.positions.size(), kTubeVertices);
 }
 
-TEST(BakeMaterials, RateIsForRiggedModelsOnly) {
+TEST(BakeMaterials, RejectsRateForRetargetedMotions) {
     const auto result = test::runBake("'" OSGSKIN_DATA "/thrower.skin' --rate 10 --frames 0",
                                       test::makeTestFolder());
     EXPECT_EQ(result.status, 2);
-    EXPECT_NE(result.err.find("--rate"), std::string::npos) << result.err;
+    test::expectContains(result.err, "--rate");
 }
 
-TEST(BakeMaterials, CharacterKeepsEachMaterial) {
+TEST(BakeMaterials, KeepsEachMaterialOfACharacter) {
     const std::string folder = test::makeTestFolder();
     bake("'" + texturedCharacter(folder, false) + "' --out baked.glb", folder);
     const Glb glb(folder + "/baked.glb");
@@ -291,7 +291,7 @@ TEST(BakeMaterials, CharacterKeepsEachMaterial) {
               GLenum(osg::StateAttribute::ON));
 }
 
-TEST(BakeMaterials, ObjSequenceNamesItsTextures) {
+TEST(BakeMaterials, ObjSequenceRefersToTextures) {
     const std::string folder = test::makeTestFolder();
     bake("'" + texturedCharacter(folder, false) + "' --frames 0:1 --out frame_%03d.obj", folder);
     const osgSkin::ImportedMesh before = osgSkin::importMesh(folder + "/body.obj");
@@ -314,7 +314,7 @@ TEST(BakeMaterials, ObjSequenceNamesItsTextures) {
 }
 
 /// glTF's opacity counts if the material is blended.
-TEST(BakeMaterials, OpaqueSurfacesAreOpaqueInObj) {
+TEST(BakeMaterials, ObjHasOpacityOnlyOfBlendedMaterials) {
     const std::string folder = test::makeTestFolder();
     for (const bool blends : {false, true}) {
         nlohmann::json gltf = test::readJson(OSGSKIN_TEST_DATA "/rig/tube.gltf");
@@ -328,7 +328,7 @@ TEST(BakeMaterials, OpaqueSurfacesAreOpaqueInObj) {
     }
 }
 
-TEST(BakeMaterials, VertexColoursGoAlong) {
+TEST(BakeMaterials, KeepsVertexColours) {
     const std::string folder = test::makeTestFolder();
     const std::string skin = texturedCharacter(folder, true);
     bake("'" + skin + "' --frames 0 --out baked.ply", folder);
@@ -352,7 +352,7 @@ TEST(BakeMaterials, VertexColoursGoAlong) {
 }
 
 /// An image of a scene may have the name of a pipe beside the file.
-TEST(BakeMaterials, NothingButFilesIsOpenedForTextures) {
+TEST(BakeMaterials, OpensOnlyRegularFilesForTextures) {
     const std::string folder = test::makeTestFolder();
     texturedCharacter(folder, false);
     const osgSkin::ImportedMesh body = osgSkin::importMesh(folder + "/body.obj");

@@ -7,6 +7,8 @@
 #include <osg/Matrixd>
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace test {
 
@@ -27,6 +29,13 @@ void forEachCopy(const osgSkin::Character& character, const Visit& visit) {
         for (std::size_t i = 0; i < vertices.size(); ++i)
             visit(rigid.part.sourceVertex[i], osg::Vec3d(vertices[i]) * matrix);
     }
+}
+
+/// The positions of all drawn copies, in the skeleton's space.
+inline std::vector<osg::Vec3d> drawnVertices(const osgSkin::Character& character) {
+    std::vector<osg::Vec3d> result;
+    forEachCopy(character, [&](std::uint32_t, const osg::Vec3d& p) { result.push_back(p); });
+    return result;
 }
 
 } // namespace test

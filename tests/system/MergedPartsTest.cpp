@@ -122,7 +122,7 @@ TEST(MergedParts, OfASavedCharacterMoveAsBefore) {
     expectEqual(*saved, *separate.root);
 }
 
-TEST(SharedLoads, OfASkinFileHaveOneModel) {
+TEST(SharedLoads, ShareModelAndArrays) {
     const Character first = loadThrower(false), second = loadThrower(false);
     const DeformableSkin &a = *first.skin.skins.front().drawable,
                          &b = *second.skin.skins.front().drawable;

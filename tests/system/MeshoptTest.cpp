@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files with buffer views compressed by meshopt, written by us as gltfpack does, valid and hostile.
 #include "DrawnSkin.h"
+#include "ExpectContains.h"
 #include "WhyRefused.h"
 
 #include "../support/GltfBuilder.h"
@@ -147,15 +148,12 @@ PackedColumn bent(const std::string& extension = kExt, bool sequence = false) {
 std::vector<osg::Vec3d> drawn(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
     character.poseAt(character.motions.at(0), 0.4);
-    std::vector<osg::Vec3d> result;
-    test::forEachCopy(character,
-                      [&](std::uint32_t, const osg::Vec3d& place) { result.push_back(place); });
-    return result;
+    return test::drawnVertices(character);
 }
 
 } // namespace
 
-TEST(Meshopt, WhatIsPackedIsTheSame) {
+TEST(Meshopt, DecompressesVerticesAndIndices) {
     GltfColumn plain;
     plain.bend();
     const std::vector<osg::Vec3d> known = drawn(plain.save("meshopt_plain.gltf"));
@@ -170,7 +168,7 @@ TEST(Meshopt, WhatIsPackedIsTheSame) {
         }
 }
 
-TEST(Meshopt, HostileFilesAreRefused) {
+TEST(Meshopt, RejectsHostileFiles) {
     using Change = std::function<void(PackedColumn&)>;
     const auto set = [](const char* key, const json& value) -> Change {
         return [=](PackedColumn& column) { column.how(column.positions, kExt)[key] = value; };
@@ -201,12 +199,12 @@ TEST(Meshopt, HostileFilesAreRefused) {
         PackedColumn column = bent();
         change(column);
         const std::string why = test::whyRefused(column.save("meshopt_hostile.gltf"));
-        EXPECT_NE(why.find("meshopt_hostile.gltf"), std::string::npos) << name << ": " << why;
+        test::expectContains(why, "meshopt_hostile.gltf", name);
     }
 }
 
 /// Zeros compress well, and many views decompress them again.
-TEST(Meshopt, WhatIsUnpackedGoesByTheFilesSize) {
+TEST(Meshopt, LimitsDecompressedBytesByFileSize) {
     constexpr std::size_t count = 100'000, stride = 64, bytes = count * stride;
     const std::string zeros(bytes, '\0');
     std::string packed(meshopt_encodeVertexBufferBound(count, stride), '\0');
@@ -226,8 +224,8 @@ TEST(Meshopt, WhatIsUnpackedGoesByTheFilesSize) {
     };
     EXPECT_EQ(test::whyRefused(save(1)), "read");
     const std::string many = save(20);
-    EXPECT_NE(test::whyRefused(many).find("expected no more unpacked in all than the file has room "
-                                          "for (option maxSamples)"),
-              std::string::npos);
-    EXPECT_EQ(test::whyRefused(many, test::loadOptions("maxSamples=10000000")), "read");
+    test::expectContains(test::whyRefused(many),
+                         "expected no more unpacked in all than the file has room "
+                         "for (option maxSamples)");
+    EXPECT_EQ(test::whyRefused(many, "maxSamples=10000000"), "read");
 }

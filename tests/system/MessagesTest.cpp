@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages about a user's mistakes: a suggestion, the known names, and the file at fault.
 #include "Command.h"
+#include "ExpectContains.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "SkinFiles.h"
 #include "WhyRefused.h"
 
 #include <osgSkinCharacter/CharacterOption>
@@ -15,19 +17,9 @@
 
 namespace {
 
-const std::string kParts = OSGSKIN_TEST_DATA "/character/";
+using test::expectContains;
 
-/// Writes a `.skin` file of the tests' tube with more members.
-std::string tubeSkin(const std::string& folder, const std::string& members) {
-    std::string file = folder + "/tube.skin";
-    std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" << kParts << R"(body.obj", "skeleton": ")"
-                        << kParts << R"(rig.bvh")" << members << "}";
-    return file;
-}
-
-void expectSays(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << '"' << part << "\" in: " << text;
-}
+using test::kTubeFolder;
 
 /// Writes a glTF file with the clips "Idle Loop" and "Walk".
 std::string clipsFile() {
@@ -40,7 +32,7 @@ std::string clipsFile() {
 
 } // namespace
 
-TEST(Messages, SuggestOptionsOfStrings) {
+TEST(Messages, SuggestOptionsInOptionStrings) {
     for (const auto& [text, meant] : {std::pair("shape=elastic", "shapes"),
                                       {"Shapes=none", "shapes"},
                                       {"avoid-body=on", "avoidBody"},
@@ -57,103 +49,105 @@ TEST(Messages, SuggestOptionsOfStrings) {
     EXPECT_EQ(notices.text(), "");
 }
 
-TEST(Messages, SuggestOptionsOfPrograms) {
+TEST(Messages, SuggestOptionsOnCommandLines) {
     const std::string folder = test::makeTestFolder();
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {
         const test::CommandResult result =
-            test::runCommand(program + " '" + kParts + "good.skin' --shape elastic", folder);
+            test::runCommand(program + " '" + kTubeFolder + "good.skin' --shape elastic", folder);
         EXPECT_EQ(result.status, 2);
-        expectSays(result.err, "; did you mean \"--shapes\"?");
+        expectContains(result.err, "; did you mean \"--shapes\"?");
     }
 }
 
-TEST(Messages, SuggestMembersOrListThem) {
+TEST(Messages, SuggestMembersOfSkinFiles) {
     const std::string folder = test::makeTestFolder();
     const test::Notices notices;
-    EXPECT_EQ(test::whyRefused(tubeSkin(folder, R"(, "shape": "elastic", "colour": "red")")),
+    EXPECT_EQ(test::whyRefused(test::saveSkin(folder + "/tube.skin",
+                                              R"(, "shape": "elastic", "colour": "red")")),
               "read");
-    expectSays(notices.warnings(), "shape: unknown member ignored; did you mean \"shapes\"?");
-    expectSays(notices.warnings(), "colour: unknown member ignored, expected one of \"osgskin\"");
-    expectSays(notices.warnings(), "\"unit\"");
+    expectContains(notices.warnings(), "shape: unknown member ignored; did you mean \"shapes\"?");
+    expectContains(notices.warnings(),
+                   "colour: unknown member ignored, expected one of \"osgskin\"");
+    expectContains(notices.warnings(), "\"unit\"");
 }
 
 TEST(Messages, ListJoints) {
     const std::string folder = test::makeTestFolder();
     const std::string known = ", expected one of \"arm\", \"base\"; did you mean \"arm\"?";
     const auto refusal = [&](const std::string& members) {
-        return test::whyRefused(tubeSkin(folder, members));
+        return test::whyRefused(test::saveSkin(folder + "/tube.skin", members));
     };
-    expectSays(refusal(R"(, "rigid": ["armm"])"),
-               "rigid joint \"armm\" is not in the skeleton" + known);
-    expectSays(refusal(R"(, "joints": {"Arm": {"skip": true}})"),
-               "joint \"Arm\" is not in the skeleton" + known);
-    expectSays(refusal(R"(, "muscles": [{"name": "m", "joint": "rig:arm"}])"),
-               "joint \"rig:arm\" is not in the skeleton" + known);
+    expectContains(refusal(R"(, "rigid": ["armm"])"),
+                   "rigid joint \"armm\" is not in the skeleton" + known);
+    expectContains(refusal(R"(, "joints": {"Arm": {"skip": true}})"),
+                   "joint \"Arm\" is not in the skeleton" + known);
+    expectContains(refusal(R"(, "muscles": [{"name": "m", "joint": "rig:arm"}])"),
+                   "joint \"rig:arm\" is not in the skeleton" + known);
     std::ofstream(folder + "/weights.json") << R"({"weights": {"amr": [[0, 1]]}})";
-    expectSays(refusal(R"(, "weights": "weights.json")"),
-               "weights.amr: not a joint of the skeleton" + known);
-    const std::string motion = R"(, "motions": [{"file": ")" + kParts + R"(move.bvh", "joints": )";
-    expectSays(refusal(motion + R"({"armm": "arm"}}])"), "which the rig does not have" + known);
-    expectSays(refusal(motion + R"({"arm": "armm"}}])"), "which the motion does not have" + known);
-    expectSays(refusal(R"(, "names": {"mine": {"Hip": "base"}})"), "did you mean \"Hips\"?");
+    expectContains(refusal(R"(, "weights": "weights.json")"),
+                   "weights.amr: not a joint of the skeleton" + known);
+    const std::string motion =
+        R"(, "motions": [{"file": ")" + kTubeFolder + R"(move.bvh", "joints": )";
+    expectContains(refusal(motion + R"({"armm": "arm"}}])"), "which the rig does not have" + known);
+    expectContains(refusal(motion + R"({"arm": "armm"}}])"),
+                   "which the motion does not have" + known);
+    expectContains(refusal(R"(, "names": {"mine": {"Hip": "base"}})"), "did you mean \"Hips\"?");
 }
 
 TEST(Messages, ListMotions) {
     const std::string clips = clipsFile(), folder = test::makeTestFolder();
-    const auto refusal = [](const std::string& file, const std::string& options) {
-        return test::whyRefused(file, test::loadOptions(options));
-    };
-    expectSays(refusal(clips, "motion=walk2"),
-               ", expected one of \"Idle Loop\", \"Walk\"; did you mean \"Walk\"?");
-    expectSays(refusal(clips, "motion=Idle Loop"),
-               "an option string needs quotes: motion=\"Idle Loop\"");
-    EXPECT_EQ(refusal(clips, "motion=\"Idle Loop\""), "read");
-    expectSays(
-        refusal(tubeSkin(folder, R"(, "motions": [{"file": ")" + clips + R"(", "clip": "Wlak"}])"),
-                ""),
+    expectContains(test::whyRefused(clips, "motion=walk2"),
+                   ", expected one of \"Idle Loop\", \"Walk\"; did you mean \"Walk\"?");
+    expectContains(test::whyRefused(clips, "motion=Idle Loop"),
+                   "an option string needs quotes: motion=\"Idle Loop\"");
+    EXPECT_EQ(test::whyRefused(clips, "motion=\"Idle Loop\""), "read");
+    expectContains(
+        test::whyRefused(
+            test::saveSkin(folder + "/tube.skin",
+                           R"(, "motions": [{"file": ")" + clips + R"(", "clip": "Wlak"}])"),
+            ""),
         "no clip \"Wlak\", expected one of 0 \"Idle Loop\", 1 \"Walk\"; did you mean \"Walk\"?");
-    expectSays(refusal(tubeSkin(folder, R"(, "motions": [{"file": ")" + kParts +
+    expectContains(
+        test::whyRefused(test::saveSkin(folder + "/tube.skin",
+                                        R"(, "motions": [{"file": ")" + kTubeFolder +
                                             R"(move.bvh"}], "props": [{"mesh": "m", "file": "f", )"
                                             R"("motion": "moves"}])"),
-                       ""),
-               "did you mean \"move\"?");
-    expectSays(test::runBake("'" + clips + "' --motion walk2", folder).err,
-               "did you mean \"Walk\"?");
+                         ""),
+        "did you mean \"move\"?");
+    expectContains(test::runBake("'" + clips + "' --motion walk2", folder).err,
+                   "did you mean \"Walk\"?");
 }
 
-TEST(Messages, TellOfQuotesInLists) {
+TEST(Messages, ExplainQuotesInOptionStrings) {
     const auto& all = osgSkin::characterOptions();
     const auto motion = std::find_if(all.begin(), all.end(),
                                      [](const auto& option) { return option.word == "motion"; });
     ASSERT_NE(motion, all.end());
-    expectSays(motion->meaning, "motion=\"Idle Loop\"");
+    expectContains(motion->meaning, "motion=\"Idle Loop\"");
 }
 
-TEST(Messages, NameTheSkinFileThatAsksForAPart) {
+TEST(Messages, NameTheSkinFileOfAMissingFile) {
     const std::string folder = test::makeTestFolder(), skin = folder + "/tube.skin: ";
-    const std::string body = kParts + "body.obj", rig = kParts + "rig.bvh";
+    const std::string body = kTubeFolder + "body.obj", rig = kTubeFolder + "rig.bvh";
     const auto refusal = [&](const std::string& mesh, const std::string& skeleton,
                              const std::string& more) {
-        std::ofstream(folder + "/tube.skin")
-            << R"({"osgskin": 1, "mesh": ")" << mesh << R"(", "skeleton": ")" << skeleton << '"'
-            << more << "}";
-        return test::whyRefused(folder + "/tube.skin");
+        return test::whyRefused(test::saveSkin(folder + "/tube.skin", more, mesh, skeleton));
     };
     for (const std::string& why :
          {refusal("none.obj", rig, ""), refusal(body, "none.bvh", ""),
           refusal(body, rig, R"(, "motions": [{"file": "none.bvh"}])"),
           refusal(body, rig, R"(, "bind": "weights", "weights": "none.json")"),
           refusal(body, rig,
-                  R"(, "motions": [{"file": ")" + kParts +
-                      R"(move.bvh"}], "props": [{"mesh": "none.obj", "file": ")" + kParts +
+                  R"(, "motions": [{"file": ")" + kTubeFolder +
+                      R"(move.bvh"}], "props": [{"mesh": "none.obj", "file": ")" + kTubeFolder +
                       R"(move.bvh", "motion": "move"}])")}) {
         EXPECT_EQ(why.rfind(skin, 0), 0u) << why;
-        expectSays(why, "none.");
-        expectSays(why, "cannot open");
+        expectContains(why, "none.");
+        expectContains(why, "cannot open");
     }
 }
 
-TEST(Messages, TellHowAMotionIsUsed) {
+TEST(Messages, ExplainHowToUseAMotionFile) {
     const std::string bvh = OSGSKIN_TEST_DATA "/bvh/two_joints.bvh";
     test::GltfColumn column;
     column.bend();
@@ -161,11 +155,11 @@ TEST(Messages, TellHowAMotionIsUsed) {
     const std::string gltf = column.save("messages_motion.gltf");
     for (const std::string& file : {bvh, gltf}) {
         const std::string why = test::whyRefused(file + ".skin");
-        expectSays(why, "no mesh with bones");
-        expectSays(why, "name it in the \"motions\" of a .skin file");
-        expectSays(why, "-O 'motion=\"" + file + "\"'");
+        expectContains(why, "no mesh with bones");
+        expectContains(why, "name it in the \"motions\" of a .skin file");
+        expectContains(why, "-O 'motion=\"" + file + "\"'");
     }
     const std::string still = test::whyRefused(OSGSKIN_TEST_DATA "/rig/unskinned.gltf");
-    expectSays(still, "no mesh with bones");
-    expectSays(test::whyRefused(kParts + "body.obj.skin"), "can name a skeleton for it");
+    expectContains(still, "no mesh with bones");
+    expectContains(test::whyRefused(kTubeFolder + "body.obj.skin"), "can name a skeleton for it");
 }

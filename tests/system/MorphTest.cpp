@@ -3,6 +3,7 @@
 // Morph targets of loaded characters: where each vertex is drawn, computed from the file's numbers.
 #include "Command.h"
 #include "DrawnSkin.h"
+#include "ExpectContains.h"
 #include "GlbFile.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -89,7 +90,7 @@ const osgSkin::CharacterMotion& motionOf(const Character& character, const std::
 } // namespace
 
 /// On skins and on rigid parts, at rest and bent.
-TEST(Morphs, MoveTheRestVerticesBeforeTheSkinDeforms) {
+TEST(Morphs, ApplyBeforeSkinning) {
     Face face;
     face.json["animations"].erase(1);
     const std::string file = face.save("morphs.gltf");
@@ -113,7 +114,7 @@ TEST(Morphs, MoveTheRestVerticesBeforeTheSkinDeforms) {
     }
 }
 
-TEST(Morphs, MergedRigidPartsHaveThem) {
+TEST(Morphs, ApplyToMergedRigidParts) {
     Face face;
     face.json["animations"].erase(1);
     const std::string file = face.save("merged.gltf");
@@ -163,7 +164,7 @@ TEST(Morphs, MergedRigidPartsHaveThem) {
     }
 }
 
-TEST(Morphs, ClipsOfTheFilePlayThem) {
+TEST(Morphs, ArePlayedByClips) {
     Face face;
     const test::Notices notices;
     LoadOptions options;
@@ -179,13 +180,11 @@ TEST(Morphs, ClipsOfTheFilePlayThem) {
 
 TEST(Morphs, AreListedInTheReport) {
     Face face;
-    EXPECT_NE(loadCharacter(face.save("report.gltf"))
-                  .bindReport.text()
-                  .find("2 morph targets: \"wide\", \"tall\""),
-              std::string::npos);
+    test::expectContains(loadCharacter(face.save("report.gltf")).bindReport.text(),
+                         "2 morph targets: \"wide\", \"tall\"");
 }
 
-TEST(Morphs, SkinFilesHaveThoseOfTheirMesh) {
+TEST(Morphs, AreReadThroughSkinFiles) {
     Face face;
     const std::string mesh = face.save("named.gltf");
     for (const char* bind : {"weights", "smooth"}) {
@@ -201,7 +200,7 @@ TEST(Morphs, SkinFilesHaveThoseOfTheirMesh) {
 }
 
 /// The offsets are those from the frame, in which "wide" has the weight 0.75, and "tall" 0.5.
-TEST(Morphs, AStillGlbFileHasThemAgain) {
+TEST(Morphs, AreWrittenToStillGlb) {
     Face face;
     const std::string folder = test::makeTestFolder();
     for (const char* rigid : {"none", "top"}) {
@@ -236,5 +235,5 @@ TEST(Morphs, AStillGlbFileHasThemAgain) {
     const auto unknown =
         test::runBake(face.save("still.gltf") + " --morph wied=1 --out no.glb", folder);
     EXPECT_EQ(unknown.status, 2);
-    EXPECT_NE(unknown.err.find("did you mean \"wide\"?"), std::string::npos) << unknown.err;
+    test::expectContains(unknown.err, "did you mean \"wide\"?");
 }

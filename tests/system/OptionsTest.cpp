@@ -36,7 +36,7 @@ std::string rowOf(const CharacterOption& option) {
 
 } // namespace
 
-TEST(Options, AreInTheReadmeAsTheProgramHasThem) {
+TEST(Options, MatchTheReadme) {
     const std::string all = contentOf(OSGSKIN_DATA "/../osgPlugin/skin/README.md");
     const std::size_t begin = all.find("\n### Options\n"), end = all.find("\n### Shapes\n");
     ASSERT_TRUE(begin < end && end != std::string::npos);
@@ -50,7 +50,7 @@ TEST(Options, AreInTheReadmeAsTheProgramHasThem) {
     EXPECT_EQ(rows, osgSkin::characterOptions().size());
 }
 
-TEST(Options, TakeEachOfTheirValuesAndNoOther) {
+TEST(Options, AcceptOnlyTheirValues) {
     for (const Option& option : osgSkin::optionTable()) {
         osgSkin::LoadOptions options;
         for (const std::string& value : option.choices)
@@ -71,7 +71,7 @@ TEST(Options, TakeEachOfTheirValuesAndNoOther) {
     EXPECT_FALSE(osgSkin::setOption(options, "noSuchOption", "on"));
 }
 
-TEST(Options, OfTheCallerGoBeforeTheFiles) {
+TEST(Options, OfTheCallerOverrideTheFile) {
     const osgSkin::LoadOptions file = test::loadOptions("bind=paper shapes=fast avoidBody=on");
     osgSkin::LoadOptions options = test::loadOptions("shapes=none muscles=on");
     osgSkin::completeOptions(options, file);
@@ -83,7 +83,7 @@ TEST(Options, OfTheCallerGoBeforeTheFiles) {
     EXPECT_EQ(options.surfaceNormals, std::nullopt);
 }
 
-TEST(Options, MergedRigidPartsAreThoseOfTheFile) {
+TEST(Options, MergedRigidPartsUseJointsOfTheFile) {
     const osgSkin::LoadOptions file = test::loadOptions("rigid=head");
     osgSkin::LoadOptions options = test::loadOptions("rigid=merged");
     EXPECT_TRUE(options.mergeRigid);
@@ -95,7 +95,7 @@ TEST(Options, MergedRigidPartsAreThoseOfTheFile) {
     EXPECT_FALSE(options.mergeRigid);
 }
 
-TEST(Options, OfFilesAreOptionsOfPrograms) {
+TEST(Options, OfFilesAreOnCommandLines) {
     std::filesystem::create_directories(OSGSKIN_TEST_OUTPUT);
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {
         const std::string help = test::runCommand(program + " --help", OSGSKIN_TEST_OUTPUT).out;
@@ -108,7 +108,7 @@ TEST(Options, OfFilesAreOptionsOfPrograms) {
     }
 }
 
-TEST(Options, AreSpeltWithHyphensByPrograms) {
+TEST(Options, HaveHyphensOnCommandLines) {
     CharacterOption option;
     option.word = "avoidBody";
     EXPECT_EQ(option.flag(), "--avoid-body");

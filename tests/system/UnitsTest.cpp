@@ -2,11 +2,13 @@
 // A loaded scene is in metres, whatever the unit of its files.
 #include "Command.h"
 #include "DrawnSkin.h"
+#include "ExpectContains.h"
 #include "FindNodes.h"
 #include "GlbFile.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
 #include "QuadRig.h"
+#include "SkinFiles.h"
 #include "TextFile.h"
 #include "WhyRefused.h"
 
@@ -32,8 +34,6 @@ namespace {
 
 using osgSkin::Character;
 using osgSkin::loadCharacter;
-
-const std::string kParts = OSGSKIN_TEST_DATA "/character/";
 
 /// The corners of a post of two storeys: three squares, one above the other.
 /// \param storey its height; the post is half as wide
@@ -160,13 +160,21 @@ std::string colladaPost(const std::string& folder, const std::string& metres) {
 
 /// Writes a `.skin` file of the tests' tube (4 units tall), its motion and a prop.
 std::string tubeSkin(const std::string& folder, const std::string& members) {
-    std::string file = folder + "/tube.skin";
-    std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" << kParts << R"(body.obj", "skeleton": ")"
-                        << kParts << R"(rig.bvh", "motions": [{"file": ")" << kParts
-                        << R"(move.bvh", "name": "move"}], "props": [{"mesh": ")" << kParts
-                        << R"(body.obj", "motion": "move", "file": ")" << kParts << R"(move.bvh"}])"
-                        << members << "}";
-    return file;
+    const std::string move = test::kTubeFolder + "move.bvh";
+    return test::saveSkin(folder + "/tube.skin", R"(, "motions": [{"file": ")" + move +
+                                                     R"(", "name": "move"}], )" +
+                                                     R"("props": [{"mesh": ")" + test::kTubeFolder +
+                                                     R"(body.obj", "motion": "move", "file": ")" +
+                                                     move + "\"}]" + members);
+}
+
+/// Writes a motion of two frames for the posts.
+void saveStill(const std::string& file) {
+    const std::string channels = "CHANNELS 3 Zrotation Yrotation Xrotation\n";
+    std::ofstream(file) << "HIERARCHY\nROOT lower\n{\nOFFSET 0 0 0\n"
+                        << channels << "JOINT upper\n{\nOFFSET 0 100 0\n"
+                        << channels << "End Site\n{\nOFFSET 0 100 0\n}\n}\n}\nMOTION\nFrames: 2\n"
+                        << "Frame Time: 0.1\n0 0 0 0 0 0\n0 0 0 10 0 0\n";
 }
 
 osg::BoundingBox boxOf(osg::Node& scene) {
@@ -198,7 +206,7 @@ bool normalises(osg::Node& scene) {
 
 } // namespace
 
-TEST(Units, OfFbxAreAsTheFileStatesThem) {
+TEST(Units, OfFbxAreRead) {
     const std::string folder = test::makeTestFolder();
     for (const auto& [centimetres, height] :
          std::vector<std::pair<double, double>>{{1.0, 2.0}, {2.54, 5.08}, {100.0, 200.0}}) {
@@ -216,7 +224,7 @@ TEST(Units, OfFbxAreAsTheFileStatesThem) {
     }
 }
 
-TEST(Units, OfColladaAreAsTheFileStatesThem) {
+TEST(Units, OfColladaAreRead) {
     const std::string folder = test::makeTestFolder();
     for (const auto& [metres, height] : std::vector<std::pair<std::string, double>>{
              {"0.01", 2.0}, {"0.0254", 5.08}, {"1", 200.0}}) {
@@ -239,7 +247,7 @@ TEST(Units, OfGltfAreMetres) {
     EXPECT_NEAR(heightOf(file, "unit=0.01"), 0.029, 1e-6);
 }
 
-TEST(Units, OfOtherFilesAreAnOptionsOrMetres) {
+TEST(Units, OfOtherFilesAreSetByOption) {
     const std::string folder = test::makeTestFolder();
     struct Case {
         std::string members, options;
@@ -256,7 +264,7 @@ TEST(Units, OfOtherFilesAreAnOptionsOrMetres) {
     }
 }
 
-TEST(Units, ANumberReplacesThoseOfAFileAndANameDoesNot) {
+TEST(Units, NumberOverridesTheFileAndNameDoesNot) {
     const std::string file = fbxPost(test::makeTestFolder(), 1.0);
     EXPECT_NEAR(heightOf(file, "unit=1"), 200.0, 1e-3);
     EXPECT_NEAR(heightOf(file, "unit=0.1"), 20.0, 1e-4);
@@ -268,7 +276,7 @@ TEST(Units, ANumberReplacesThoseOfAFileAndANameDoesNot) {
     EXPECT_TRUE(notices.say("a number (\"unit\": 1) would replace it")) << notices.text();
 }
 
-TEST(Units, AreThoseOfTheSkeletonWhereTheMeshHasNone) {
+TEST(Units, OfTheSkeletonAreUsedWhereTheMeshHasNone) {
     const std::string folder = test::makeTestFolder(), fbx = fbxPost(folder, 1.0);
     std::ofstream obj(folder + "/post.obj");
     const osgSkin::ImportedMesh mesh = osgSkin::importMesh(fbx);
@@ -281,17 +289,16 @@ TEST(Units, AreThoseOfTheSkeletonWhereTheMeshHasNone) {
         obj << "\n";
     }
     obj.close();
-    std::ofstream(folder + "/post.skin")
-        << R"({"osgskin": 1, "mesh": "post.obj", "skeleton": "post.fbx"})";
-    EXPECT_NEAR(heightOf(folder + "/post.skin"), 2.0, 1e-5);
+    EXPECT_NEAR(heightOf(test::saveSkin(folder + "/post.skin", {}, "post.obj", "post.fbx")), 2.0,
+                1e-5);
 }
 
-TEST(Units, ThatAreNoneAreRefused) {
+TEST(Units, RejectsUnknownUnits) {
     const std::string folder = test::makeTestFolder();
     for (const char* bad : {"\"furlong\"", "0", "-1", "1e30", "true", "\"\"", "[1]"}) {
         const std::string why =
             test::whyRefused(tubeSkin(folder, std::string(R"(, "unit": )") + bad));
-        EXPECT_NE(why.find("tube.skin: unit: expected"), std::string::npos) << bad << ": " << why;
+        test::expectContains(why, "tube.skin: unit: expected", bad);
     }
     for (const char* bad : {"unit=furlong", "unit=0", "unit=nan", "unit=1m", "unit="})
         EXPECT_THROW(test::loadOptions(bad), osgSkin::Error) << bad;
@@ -328,23 +335,19 @@ TEST(Units, ScaleEverythingInTheScene) {
 }
 
 /// The prop is 2.9 m tall beside a post in centimetres.
-TEST(Units, OfAPropAreItsOwn) {
+TEST(Units, OfPropsAreRead) {
     const std::string folder = test::makeTestFolder();
     fbxPost(folder, 1.0);
-    std::ofstream(folder + "/prop.bvh") << "HIERARCHY\nROOT lower\n{\nOFFSET 0 0 0\nCHANNELS 3 "
-                                           "Zrotation Yrotation Xrotation\nJOINT upper\n{\nOFFSET "
-                                           "0 100 0\nCHANNELS 3 Zrotation Yrotation "
-                                           "Xrotation\nEnd Site\n{\nOFFSET 0 100 "
-                                           "0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0 "
-                                           "0 0 0\n0 0 0 10 0 0\n";
+    saveStill(folder + "/prop.bvh");
     test::GltfColumn column;
     const std::string prop = column.save("units_prop.gltf");
     const auto heightOfProp = [&](const std::string& options) {
-        std::ofstream(folder + "/post.skin")
-            << R"({"osgskin": 1, "mesh": "post.fbx", "motions": [{"file": "prop.bvh"}], "props": [)"
-            << R"({"mesh": ")" << prop << R"(", "motion": "prop", "file": "prop.bvh"}]})";
-        const Character character =
-            loadCharacter(folder + "/post.skin", test::loadOptions(options));
+        const std::string file =
+            test::saveSkin(folder + "/post.skin",
+                           R"(, "motions": [{"file": "prop.bvh"}], "props": [{"mesh": ")" + prop +
+                               R"(", "motion": "prop", "file": "prop.bvh"}])",
+                           "post.fbx", "");
+        const Character character = loadCharacter(file, test::loadOptions(options));
         for (const auto& found : test::findNodes<osg::MatrixTransform>(*character.root))
             if (found.node->getName() == "prop:prop:0") {
                 const osg::BoundingBox box = boxOf(*found.node); // in skeleton space
@@ -356,16 +359,12 @@ TEST(Units, OfAPropAreItsOwn) {
     EXPECT_NEAR(heightOfProp("unit=0.5"), 1.45, 1e-4); // a number is for all files
 }
 
-TEST(Units, OfBakedFilesAreTheMeshsButMetresInGlb) {
+TEST(Units, OfBakedGlbAreMetres) {
     const std::string folder = test::makeTestFolder();
     fbxPost(folder, 1.0);
-    std::ofstream(folder + "/still.bvh")
-        << "HIERARCHY\nROOT lower\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Yrotation "
-           "Xrotation\nJOINT upper\n{\nOFFSET 0 100 0\nCHANNELS 3 Zrotation Yrotation "
-           "Xrotation\nEnd Site\n{\nOFFSET 0 100 0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n"
-           "0 0 0 0 0 0\n0 0 0 10 0 0\n";
-    std::ofstream(folder + "/post.skin")
-        << R"({"osgskin": 1, "mesh": "post.fbx", "motions": [{"file": "still.bvh"}]})";
+    saveStill(folder + "/still.bvh");
+    test::saveSkin(folder + "/post.skin", R"(, "motions": [{"file": "still.bvh"}])", "post.fbx",
+                   "");
     ASSERT_EQ(test::runBake("post.skin --out post.glb --rest rest.obj", folder).status, 0);
     const test::Glb glb(folder + "/post.glb");
     const nlohmann::json& node = glb.json["nodes"][0];
@@ -375,7 +374,7 @@ TEST(Units, OfBakedFilesAreTheMeshsButMetresInGlb) {
     EXPECT_NEAR(osgSkin::importMesh(folder + "/rest.obj").mesh.size(), 200.0, 1e-3);
 }
 
-TEST(Units, OfScenesThatOsgReadsAreAnOption) {
+TEST(Units, OfOsgScenesAreSetByOption) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
     skeleton->addChild(bone);

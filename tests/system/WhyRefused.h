@@ -25,4 +25,9 @@ inline std::string whyRefused(const std::string& file, const osgSkin::LoadOption
     return "read";
 }
 
+/// \param options as the plug-in's
+inline std::string whyRefused(const std::string& file, const std::string& options) {
+    return whyRefused(file, loadOptions(options));
+}
+
 } // namespace test

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// Settings of a .skin file other than the default method for ratios.
+#include "Command.h"
+#include "ExpectContains.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+#include "SkinFiles.h"
+#include "WhyRefused.h"
+
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+using osgSkin::Character;
+
+namespace {
+
+/// Compares the bend ratios of the joint "arm" with the file's function of a vertex's height.
+void expectBend(const Character& character, const std::function<double(double)>& expected) {
+    const osgSkin::Binding& binding = character.binding;
+    ASSERT_EQ(binding.vertexCount(), character.body.mesh.positions.size());
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height = character.body.mesh.positions[v].y;
+        float arm = 0.0f;
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
+            if (binding.influences[i].joint == 1) arm = binding.influences[i].bend;
+        EXPECT_NEAR(arm, static_cast<float>(expected(height)), 1e-4f)
+            << "vertex " << v << " at " << height;
+    }
+}
+
+} // namespace
+
+TEST(BindMethod, WeightsGiveTheRatiosOfTheFile) {
+    expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/painted.skin"),
+               [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
+}
+
+TEST(BindMethod, WeightsAreReported) {
+    const Character character = osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/painted.skin");
+    EXPECT_EQ(character.bindReport.vertices, 56u);
+    EXPECT_EQ(character.bindReport.regions.size(), 2u);
+    EXPECT_TRUE(character.bindReport.notes.empty()) << character.bindReport.text();
+}
+
+TEST(BindMethod, ReadsWeightsOfTheMesh) {
+    const Character character =
+        osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/mesh_weights.skin");
+    const osgSkin::Binding& binding = character.binding;
+    ASSERT_EQ(binding.vertexCount(), 36u);
+    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
+        const double height =
+            2.0 * character.body.mesh.positions[v].z; // the file's armature halves
+        const osgSkin::Influence* last = &binding.influences[binding.firstInfluence[v + 1] - 1];
+        const float arm = last->joint == 1 ? last->bend : 0.0f;
+        EXPECT_NEAR(arm, std::clamp(height - 1.5, 0.0, 1.0), 1e-5) << "vertex " << v;
+    }
+}
+
+/// An artist's weights are the default; every other method is one word away.
+TEST(BindMethod, UsesWeightsByDefaultWhereTheMeshIsPaintedThroughout) {
+    const std::string folder = test::makeTestFolder();
+    const std::string painted = test::GltfColumn().save("default_painted.gltf");
+    const auto load = [&](const std::string& members, const std::string& options = {}) {
+        return osgSkin::loadCharacter(test::saveSkin(folder + "/column.skin", members, painted, ""),
+                                      test::loadOptions(options));
+    };
+    EXPECT_TRUE(load("").bindReport.boundaries.empty());
+    test::expectContains(load("").bindReport.text(), "bound by painted weights\n");
+    EXPECT_TRUE(load(R"(, "shapes": "fast", "rigid": [])").bindReport.boundaries.empty());
+    EXPECT_FALSE(load(R"(, "bind": "smooth")").bindReport.boundaries.empty());
+    EXPECT_FALSE(load("", "bind=smooth").bindReport.boundaries.empty());
+    EXPECT_TRUE(load(R"(, "bind": "smooth")", "bind=weights").bindReport.boundaries.empty());
+    EXPECT_FALSE(load(R"(, "bind": "paper")").bindReport.boundaries.empty());
+    // Regions have boundaries, weights have none.
+    EXPECT_FALSE(load(R"(, "joints": {"top": {"skip": true}})").bindReport.boundaries.empty());
+    for (const auto& [members, summary] :
+         {std::pair("", "bound by painted weights\n"),
+          {R"(, "bind": "smooth")", "bound by regions of the skin\n"}}) {
+        load(members);
+        const std::string said = test::runBake("column.skin --rest rest.obj", folder).err;
+        test::expectContains(said, summary);
+    }
+    const test::Notices notices;
+    const Character other = load(R"(, "skeleton": ")" OSGSKIN_TEST_DATA "/character/rig.bvh\"");
+    EXPECT_FALSE(other.bindReport.boundaries.empty());
+    EXPECT_TRUE(notices.say("default_painted.gltf: its weights are for bones that the skeleton "
+                            "does not have, the body is bound by regions"))
+        << notices.text();
+}
+
+/// A shell without weights, as a gun beside painted arms, takes those of the nearest vertex that
+/// has some. A shell that is painted in part is not well painted.
+TEST(BindMethod, ShellsWithoutWeightsDoNotPreventWeights) {
+    for (const std::size_t bare : {8u, 4u}) {
+        test::GltfColumn column; // three boxes of eight vertices
+        std::vector<double> weights;
+        for (std::size_t v = 0; v < 24; ++v)
+            weights.insert(weights.end(), {v + bare < 24 ? 1.0 : 0.0, 0.0, 0.0, 0.0});
+        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        const std::string file = column.save("bare" + std::to_string(bare) + ".gltf");
+        const test::Notices notices;
+        const Character character = osgSkin::loadCharacter(file);
+        EXPECT_EQ(character.bindReport.boundaries.empty(), bare == 8) << bare;
+        EXPECT_TRUE(notices.say(std::to_string(bare) + " of 24 vertices have no weights"))
+            << notices.text();
+    }
+}
+
+TEST(BindMethod, WeightsFileImpliesWeights) {
+    const std::string weights = R"(, "weights": ")" + test::kTubeFolder + "weights.json\"";
+    expectBend(
+        osgSkin::loadCharacter(test::saveSkin(test::makeTestFolder() + "/painted.skin", weights)),
+        [](double height) { return std::clamp(height - 1.5, 0.0, 1.0); });
+}
+
+TEST(BindMethod, PaperGivesEquation5BetweenBoundariesOfTheFile) {
+    expectBend(osgSkin::loadCharacter(OSGSKIN_TEST_DATA "/character/printed.skin"),
+               [](double height) {
+                   const double t = std::clamp((height - 1.0) / 2.0, 0.0, 1.0);
+                   return t * t * (3.0 - 2.0 * t);
+               });
+}

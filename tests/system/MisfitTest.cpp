@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Bodies whose skeleton is in another unit, has another up axis or another position.
+#include "Command.h"
+#include "ExpectContains.h"
+#include "Notices.h"
+
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinImport/ImportMesh>
+#include <osgSkinImport/ImportSkeleton>
+
+#include <gtest/gtest.h>
+#include <osg/Matrixd>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+const std::string kBodyThatFits = OSGSKIN_DATA "/thrower";
+
+/// Weights for the thrower: each joint has an equal range of the vertices.
+void paint(const std::string& path) {
+    const osgSkin::RestSkeleton rest = osgSkin::importSkeleton(kBodyThatFits + ".bvh");
+    const std::size_t vertices = osgSkin::importMesh(kBodyThatFits + ".obj").mesh.positions.size();
+    std::ofstream file(path);
+    file << "{\"weights\": {";
+    for (std::size_t j = 0; j < rest.joints.size(); ++j) {
+        file << (j > 0 ? "], \"" : "\"") << rest.joints[j].name << "\": [";
+        for (std::size_t v = j; v < vertices; v += rest.joints.size())
+            file << (v > j ? ", [" : "[") << v << ", 1]";
+    }
+    file << "]}}";
+}
+
+/// Warnings about the thrower after moving his body but not the skeleton.
+/// \param move of the body
+/// \param skeleton file; empty: his own
+/// \param painted whether weights name each of his joints
+std::string misfitsOf(const osg::Matrixd& move, const std::string& skeleton = {},
+                      bool painted = false) {
+    const std::string folder = test::makeTestFolder();
+    std::ifstream from(kBodyThatFits + ".obj");
+    std::ofstream body(folder + "/body.obj");
+    for (std::string line; std::getline(from, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        osg::Vec3d p;
+        if (words >> kind && kind == "v" && words >> p.x() >> p.y() >> p.z()) {
+            p = p * move;
+            body << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";
+        } else {
+            body << line << "\n";
+        }
+    }
+    body.close();
+    if (!skeleton.empty()) std::ofstream(folder + "/other.bvh") << skeleton;
+    std::ofstream(folder + "/c.skin")
+        << "{\"osgskin\": 1, \"mesh\": \"body.obj\", \"skeleton\": \""
+        << (skeleton.empty() ? kBodyThatFits : folder + "/other") << ".bvh\""
+        << (painted ? ", \"bind\": \"weights\", \"weights\": \"w.json\"}" : "}");
+    if (painted) paint(folder + "/w.json");
+    const test::Notices notices;
+    const osgSkin::Character character = osgSkin::loadCharacter(folder + "/c.skin");
+    std::string result;
+    for (const std::string& note : character.notes) result += note + "\n";
+    EXPECT_TRUE(notices.say(result));
+    return result;
+}
+
+} // namespace
+
+TEST(Misfit, WarnsAboutSkeletonInAnotherUnit) {
+    for (const double scale : {0.01, 0.0254, 10.0, 39.37, 100.0})
+        test::expectContains(misfitsOf(osg::Matrixd::scale(scale, scale, scale)),
+                             " times as long as the skeleton, expected both in the same unit");
+}
+
+TEST(Misfit, WarnsAboutSkeletonInAnotherPosition) {
+    for (const osg::Matrixd& move :
+         {osg::Matrixd::translate(0, 0, 1e3), osg::Matrixd::translate(0, 1e3, 0),
+          osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)),
+          osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0))})
+        test::expectContains(misfitsOf(move), " joints lie outside the skin, expected");
+}
+
+TEST(Misfit, WarnsAboutPaintedBodies) {
+    for (const double scale : {0.01, 39.37, 100.0})
+        test::expectContains(misfitsOf(osg::Matrixd::scale(scale, scale, scale), {}, true),
+                             " times as long as the skeleton, expected both in the same unit");
+    test::expectContains(misfitsOf(osg::Matrixd::translate(5, 0, 0), {}, true),
+                         " joints lie outside the skin, expected");
+    EXPECT_EQ(misfitsOf(osg::Matrixd(), {}, true), "");
+}
+
+TEST(Misfit, DoesNotCompareLengthsOfCoincidentJoints) {
+    const std::string channels = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+    const std::string note = misfitsOf(
+        osg::Matrixd(),
+        "HIERARCHY\nROOT a\n{\nOFFSET 5 1 0\n" + channels + "JOINT b\n{\nOFFSET 0 0 0\n" +
+            channels + "End Site\n{\nOFFSET 0 0 0\n}\n}\n}\nMOTION\nFrames: 0\nFrame Time: 1\n");
+    test::expectContains(note, "1 of 1 joints lie outside the skin");
+}
+
+TEST(Misfit, WarnsAboutSinglePrecisionRounding) {
+    const std::string note = misfitsOf(osg::Matrixd::translate(0, 4e6, 0));
+    test::expectContains(note, "body.obj: the body is 4e+06 from the origin and ");
+    test::expectContains(note, "single precision rounds its vertices by 0.238;");
+}
+
+TEST(Misfit, DoesNotWarnAboutMatchingSkeleton) {
+    EXPECT_EQ(misfitsOf(osg::Matrixd()), "");
+    EXPECT_EQ(misfitsOf(osg::Matrixd::translate(0, 1e3, 0)).find("rounds"), std::string::npos);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Clips that rotate joints within another joint's uneven scale, which shears its children.
+#include "ExpectContains.h"
+#include "GltfBuilder.h"
+#include "Notices.h"
+
+#include <osgSkinCharacter/LoadCharacter>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using test::GltfColumn;
+
+/// A column on joints below a base that is longer along one axis, also in its bind pose; "top"
+/// rotates about y or x.
+GltfColumn uneven(bool isAboutY, double length) {
+    GltfColumn column;
+    column.json["nodes"][0]["scale"] = {1.0, length, 1.0};
+    std::vector<double> matrices;
+    for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 16; ++k)
+            matrices.push_back(k == 5       ? 1.0 / length
+                               : k == 13    ? -double(j)
+                               : k % 5 == 0 ? 1.0
+                                            : 0.0);
+    column.json["skins"][0]["inverseBindMatrices"] = column.accessor("MAT4", matrices);
+    std::vector<double> turns = GltfColumn::turns({0, 60});
+    for (std::size_t k = 0; isAboutY && k < turns.size(); k += 4) std::swap(turns[k], turns[k + 1]);
+    column.animate("turn", column.joints[2], "rotation", {0.0, 1.0}, turns);
+    return column;
+}
+
+std::string notesOf(GltfColumn column) {
+    const test::Notices notices;
+    const osgSkin::Character character = osgSkin::loadCharacter(column.save("uneven.gltf"));
+    std::string result;
+    for (const std::string& note : character.notes) result += note;
+    EXPECT_EQ(notices.lines(), character.notes.size()) << notices.text();
+    return result;
+}
+
+} // namespace
+
+TEST(UnevenGltf, WarnsAboutShear) {
+    test::expectContains(notesOf(uneven(false, 2.0)),
+                         "bone \"top\" in the clip \"turn\" scaled non-uniformly");
+    EXPECT_EQ(notesOf(uneven(true, 2.0)), "") << "about the axis that is longer";
+    EXPECT_EQ(notesOf(uneven(false, 1.0)), "");
+}
