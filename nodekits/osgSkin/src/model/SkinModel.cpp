@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/SkinModel>
 
-#include "model/BoundsProxy.h"
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
+#include "model/JointBoxes.h"
 #include "model/SkinBlocks.h"
 
 #include <osgSkin/Binding>
@@ -288,7 +288,7 @@ SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
 SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
       _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
-      _ratios(other._ratios), _blocks(other._blocks), _boundsProxy(other._boundsProxy),
+      _ratios(other._ratios), _blocks(other._blocks), _jointBoxes(other._jointBoxes),
       _correctives(other._correctives), _gradients(other._gradients) {}
 
 SkinModel::~SkinModel() = default;
@@ -307,10 +307,7 @@ osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> normals,
                                                 const std::vector<std::uint32_t>& source) {
     checkVertices(positions, normals, source.size());
-    const osg::ref_ptr<SkinModel> model =
-        arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
-    model->_boundsProxy = makeBoundsProxy(*model);
-    return model;
+    return arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
 }
 
 osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
@@ -332,10 +329,7 @@ SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
     VertexGroups vertices(binding, source);
     const std::vector<std::uint32_t> order = vertices.order();
     vertices.reorder();
-    const osg::ref_ptr<SkinModel> model =
-        arrange(vertices, gather(positions, order), gather(normals, order));
-    model->_boundsProxy = makeBoundsProxy(*model);
-    return {model, order};
+    return {arrange(vertices, gather(positions, order), gather(normals, order)), order};
 }
 
 namespace {
@@ -413,6 +407,10 @@ osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
     return model;
 }
 
+void SkinModelAccess::addJointBoxes(SkinModel& model) {
+    if (model.vertexCount() > 0) model._jointBoxes = std::make_shared<JointBoxes>(model);
+}
+
 osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
                                            std::vector<glm::vec3> positions,
                                            std::vector<glm::vec3> normals) {
@@ -442,6 +440,7 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
     if (!vertices.binding().correctives.empty()) // after the gradients, which these read
         model->_correctives =
             std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
+    SkinModelAccess::addJointBoxes(*model);
     return model;
 }
 
