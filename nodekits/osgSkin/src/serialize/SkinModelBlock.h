@@ -11,13 +11,9 @@
 
 namespace osgSkin {
 
-/// The version that packSkinModel() writes. Versions 1 to 3 held a binding, from which everything
-/// else was computed at each load.
-constexpr std::uint32_t kSkinModelBlockVersion = 4;
-
 /// A model as 32-bit words, without loss: the same in each file format.
 ///
-/// Version; number of joints, and of each: parent, bytes of the name, the name (four bytes a word,
+/// Number of joints, and of each: parent, bytes of the name, the name (four bytes a word,
 /// the first lowest), centre, bone axis, twist axis (doubles, low word first); number of vertices,
 /// all positions, all normals (floats), order(); number of groups, and of each: number of vertices,
 /// number of links, of each link its joint, with the highest bit where it is partial; number of
