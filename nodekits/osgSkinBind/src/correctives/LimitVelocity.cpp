@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/LimitVelocity.h"
+#include "correctives/LimitVelocity.h"
 
-#include "shapes/ShapedJoint.h"
+#include "correctives/ShapedJoint.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/ShapedJoint.h"
+#include "correctives/ShapedJoint.h"
 
 #include "joints/BodyAxes.h"
 #include "ratios/JointRatios.h"
@@ -153,7 +153,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
 
 /// Angles are in degrees. How far a hinge bends beyond straight and sideways.
 constexpr double kBeyondStraight = 12.0;
-constexpr double kSideways = 30.0;
+constexpr double kMaxSideways = 30.0;
 /// Between the flexions at which a hinge is also bent sideways.
 constexpr double kSidewaysStep = 30.0;
 /// How far a hinge rotates about the limb, and between samples of that.
@@ -190,8 +190,8 @@ void setHinge(const glm::dvec3& axis, double mostFlexion, double knotStep, Shape
     CorrectiveJoint& functions = joint.functions;
     functions.basis = CorrectiveJoint::Basis::Hinge;
     functions.axis = axis;
-    functions.low = {sineOfHalf(least), -sineOfHalf(kSideways)};
-    functions.high = {sineOfHalf(most), sineOfHalf(kSideways)};
+    functions.low = {sineOfHalf(least), -sineOfHalf(kMaxSideways)};
+    functions.high = {sineOfHalf(most), sineOfHalf(kMaxSideways)};
     for (const double angle : steps(least, most, knotStep))
         functions.knots.push_back(sineOfHalf(angle));
 }

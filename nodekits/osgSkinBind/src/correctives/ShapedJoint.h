@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_SHAPES_SHAPEDJOINT_H
-#define OSGSKINBIND_SHAPES_SHAPEDJOINT_H
+#ifndef OSGSKINBIND_CORRECTIVES_SHAPEDJOINT_H
+#define OSGSKINBIND_CORRECTIVES_SHAPEDJOINT_H
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"

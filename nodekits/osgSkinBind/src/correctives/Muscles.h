@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_MUSCLES_MUSCLES_H
-#define OSGSKINBIND_MUSCLES_MUSCLES_H
+#ifndef OSGSKINBIND_CORRECTIVES_MUSCLES_H
+#define OSGSKINBIND_CORRECTIVES_MUSCLES_H
 
 #include "joints/JointPlan.h"
 #include "mesh/WeldedMesh.h"

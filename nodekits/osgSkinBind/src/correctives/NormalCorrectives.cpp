@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bind/AddShapes.h"
+#include "correctives/AddShapes.h"
 
 #include "ratios/JointRatios.h"
 
@@ -28,10 +28,10 @@ constexpr int kOutwards = 12;
 constexpr int kAroundRound = 12;
 constexpr int kOutwardsRound = 24;
 
-constexpr double kRidge = 1e-6;
+constexpr double kNormalRidge = 1e-6;
 
 /// The largest error of a normal in any bend that is accepted for fewer modes, radians.
-constexpr double kTolerance = 2e-2;
+constexpr double kMaxNormalError = 2e-2;
 
 /// The least cosine between a normal and its target; skin that has folded over is not followed.
 constexpr double kMinCosine = 0.15;
@@ -45,7 +45,7 @@ bool isHinge(const CorrectiveJoint& joint) {
            joint.basis == CorrectiveJoint::Basis::TurnedHinge;
 }
 
-std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& joint) {
+std::vector<glm::dvec2> normalSamples(const CorrectiveJoint& joint) {
     std::vector<glm::dvec2> samples;
     if (joint.basis == CorrectiveJoint::Basis::Input)
         for (int i = 1; i <= kOutwards; ++i)
@@ -244,11 +244,12 @@ Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts
     const Eigen::VectorXd length = weights.colwise().norm().cwiseMax(1e-12);
     const Eigen::MatrixXd unit = weights * length.cwiseInverse().asDiagonal();
     Eigen::MatrixXd normal = unit.transpose() * unit;
-    normal.diagonal().array() += kRidge;
+    normal.diagonal().array() += kNormalRidge;
     return length.cwiseInverse().asDiagonal() * normal.ldlt().solve(unit.transpose() * tilts);
 }
 
-/// The same with as few of the first modes for each vertex as kTolerance allows; 0 for the others.
+/// The same with as few of the first modes for each vertex as kMaxNormalError allows; 0 for the
+/// others.
 Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
     if (tilts.cols() == 0) return {weights.cols(), 0};
     Eigen::MatrixXd modes = fit(weights, tilts);
@@ -261,7 +262,7 @@ Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const Eigen::Matri
         for (std::size_t v = 0; v < open.size(); ++v) {
             const auto column = Eigen::Index(3 * v);
             open[v] =
-                open[v] && off.middleCols<3>(column).rowwise().norm().maxCoeff() <= kTolerance;
+                open[v] && off.middleCols<3>(column).rowwise().norm().maxCoeff() <= kMaxNormalError;
             if (open[v]) modes.middleCols<3>(column) = fewer.middleCols<3>(column);
         }
     }
@@ -284,7 +285,7 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
                        (other.basis == CorrectiveJoint::Basis::Input) ==
                            (joint.basis == CorrectiveJoint::Basis::Input);
             });
-        const std::vector<glm::dvec2> samples = samplesOf(joint);
+        const std::vector<glm::dvec2> samples = normalSamples(joint);
         // Splines follow a bend closely enough to make up for shorter gradients.
         if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
             skin.limitGradients(samples);

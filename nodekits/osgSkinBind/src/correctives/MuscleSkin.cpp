@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "muscles/Muscles.h"
+#include "correctives/Muscles.h"
 
 #include "regions/HermiteRatio.h"
 

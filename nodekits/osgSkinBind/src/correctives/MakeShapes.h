@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_SHAPES_MAKESHAPES_H
-#define OSGSKINBIND_SHAPES_MAKESHAPES_H
+#ifndef OSGSKINBIND_CORRECTIVES_MAKESHAPES_H
+#define OSGSKINBIND_CORRECTIVES_MAKESHAPES_H
 
+#include "correctives/ShapeFit.h"
+#include "correctives/ShapedJoint.h"
 #include "garments/SkinLayers.h"
-#include "shapes/ShapeFit.h"
-#include "shapes/ShapedJoint.h"
 
 #include <osgSkinBind/Progress>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "muscles/Muscles.h"
-#include "shapes/ShapeFit.h"
+#include "correctives/Muscles.h"
+#include "correctives/ShapeFit.h"
 
 #include <Eigen/Cholesky>
 #include <glm/geometric.hpp>
@@ -15,10 +15,10 @@ namespace osgSkin {
 namespace {
 
 /// Samples of a contraction: of a hinge along its range; of others around and outwards.
-constexpr int kAlong = 48;
-constexpr int kAround = 24;
-constexpr int kOutwards = 12;
-constexpr double kRidge = 1e-6;
+constexpr int kContractionsAlong = 48;
+constexpr int kContractionsAround = 24;
+constexpr int kContractionsOutwards = 12;
+constexpr double kContractionRidge = 1e-6;
 
 /// A muscle that no bend contracts by more has no mode that follows the bend.
 constexpr double kMinContraction = 0.2;
@@ -26,18 +26,19 @@ constexpr double kMinContraction = 0.2;
 /// Negligible displacement, as a share of the largest.
 constexpr double kMinSwelling = 0.01;
 
-std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& functions) {
+std::vector<glm::dvec2> contractionSamples(const CorrectiveJoint& functions) {
     std::vector<glm::dvec2> samples;
     if (functions.basis == CorrectiveJoint::Basis::Hinge) {
-        for (int i = 0; i <= kAlong; ++i)
-            samples.emplace_back(
-                functions.low.x + (functions.high.x - functions.low.x) * double(i) / kAlong, 0.0);
+        for (int i = 0; i <= kContractionsAlong; ++i)
+            samples.emplace_back(functions.low.x + (functions.high.x - functions.low.x) *
+                                                       double(i) / kContractionsAlong,
+                                 0.0);
         return samples;
     }
-    for (int i = 0; i < kAround; ++i)
-        for (int j = 1; j <= kOutwards; ++j) {
-            const double angle = glm::two_pi<double>() * i / kAround;
-            samples.push_back(functions.high.x * j / kOutwards *
+    for (int i = 0; i < kContractionsAround; ++i)
+        for (int j = 1; j <= kContractionsOutwards; ++j) {
+            const double angle = glm::two_pi<double>() * i / kContractionsAround;
+            samples.push_back(functions.high.x * j / kContractionsOutwards *
                               glm::dvec2(std::cos(angle), std::sin(angle)));
         }
     return samples;
@@ -46,7 +47,7 @@ std::vector<glm::dvec2> samplesOf(const CorrectiveJoint& functions) {
 /// A muscle's contraction as coefficients of its functions; empty if it is negligible.
 std::vector<double> contractionCoefficients(const Muscle& muscle) {
     const CorrectiveJoint& functions = muscle.functions;
-    const std::vector<glm::dvec2> samples = samplesOf(functions);
+    const std::vector<glm::dvec2> samples = contractionSamples(functions);
     Eigen::MatrixXd phi(Eigen::Index(samples.size()), Eigen::Index(functions.functionCount()));
     Eigen::VectorXd wanted(phi.rows());
     CorrectiveJoint::Functions values;
@@ -58,7 +59,7 @@ std::vector<double> contractionCoefficients(const Muscle& muscle) {
     }
     if (wanted.maxCoeff() < kMinContraction) return {};
     Eigen::MatrixXd normal = phi.transpose() * phi;
-    normal.diagonal().array() += kRidge;
+    normal.diagonal().array() += kContractionRidge;
     const Eigen::VectorXd fit = normal.ldlt().solve(phi.transpose() * wanted);
     return {fit.data(), fit.data() + fit.size()};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/ShapeFit.h"
+#include "correctives/ShapeFit.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -11,7 +11,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kRidge = 1e-3;
+constexpr double kFitRidge = 1e-3;
 
 /// Shapes smaller than this share of the mean shape's size get no more weight.
 constexpr double kFloor = 0.05;
@@ -44,7 +44,7 @@ Eigen::MatrixXd offsetsOf(const JointShapes& shapes) {
 Eigen::MatrixXd solve(const JointShapes& shapes, const Eigen::MatrixXd& phi,
                       const Eigen::MatrixXd& offsets) {
     const auto damped = [](Eigen::MatrixXd normal) {
-        normal.diagonal().array() += kRidge;
+        normal.diagonal().array() += kFitRidge;
         return normal.ldlt();
     };
     if (shapes.weights.empty())

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/MakeShapes.h"
+#include "correctives/MakeShapes.h"
 
+#include "correctives/LimitVelocity.h"
+#include "correctives/ShapeFit.h"
+#include "correctives/ShapedJoint.h"
 #include "elastic/SolveElastic.h"
 #include "garments/SkinLayers.h"
 #include "ratios/JointRatios.h"
-#include "shapes/LimitVelocity.h"
-#include "shapes/ShapeFit.h"
-#include "shapes/ShapedJoint.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shapes/MakeShapes.h"
+#include "correctives/MakeShapes.h"
 
+#include "correctives/ShapeFit.h"
+#include "correctives/ShapedJoint.h"
 #include "regions/HermiteRatio.h"
-#include "shapes/ShapeFit.h"
-#include "shapes/ShapedJoint.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -614,7 +614,7 @@ std::size_t modesOf(CorrectiveJoint::Basis basis) {
 /// Negligible displacement, in radii of the limb: of all vertices by a mode, and of a vertex by its
 /// last modes (not for joints that bend in any direction).
 constexpr double kFitTolerance = 1e-2;
-constexpr double kVertexTolerance = 2e-2;
+constexpr double kMinVertexOffset = 2e-2;
 
 /// Vertices of hinges whose largest offset is less than the first value stay; their offsets grow to
 /// the whole at the second one. In radii of the limb.
@@ -682,7 +682,7 @@ FittedShapes fastShapesOf(const ShapedJoint& joint) {
     const CorrectiveJoint::Basis basis = shapes.functions.basis;
     if (basis == CorrectiveJoint::Basis::TurnedHinge) fadeSmallOffsets(joint.radius, shapes);
     FittedShapes result = fitShapes(shapes, {modesOf(basis), kFitTolerance * joint.radius});
-    if (basis != CorrectiveJoint::Basis::Round) result.tolerance = kVertexTolerance * joint.radius;
+    if (basis != CorrectiveJoint::Basis::Round) result.tolerance = kMinVertexOffset * joint.radius;
     return result;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_ADDSHAPES_H
-#define OSGSKINBIND_ADDSHAPES_H
+#ifndef OSGSKINBIND_CORRECTIVES_ADDSHAPES_H
+#define OSGSKINBIND_CORRECTIVES_ADDSHAPES_H
 
 #include "garments/SkinLayers.h"
 #include "joints/JointPlan.h"

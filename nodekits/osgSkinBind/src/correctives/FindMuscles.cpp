@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "muscles/Muscles.h"
+#include "correctives/Muscles.h"
 
+#include "correctives/ShapedJoint.h"
 #include "joints/BodyAxes.h"
 #include "regions/HermiteRatio.h"
-#include "shapes/ShapedJoint.h"
 
 #include <osgSkin/Error>
 
@@ -59,14 +59,14 @@ double contractionAt(double bend) {
     return hermiteRatio(bend / kBeyond) / hermiteRatio(1.0 / kBeyond);
 }
 
-glm::dvec3 perpendicular(const glm::dvec3& v, const glm::dvec3& unit) {
+glm::dvec3 perpendicularPart(const glm::dvec3& v, const glm::dvec3& unit) {
     return v - unit * glm::dot(v, unit);
 }
 
 /// The axis, perpendicular to the twist axis, of a bend that turns `along` towards `way`.
 std::optional<glm::dvec3> axisTowards(const glm::dvec3& way, const glm::dvec3& along,
                                       const glm::dvec3& twistAxis) {
-    const glm::dvec3 axis = perpendicular(glm::cross(along, way), twistAxis);
+    const glm::dvec3 axis = perpendicularPart(glm::cross(along, way), twistAxis);
     if (!(glm::length(axis) > 1e-3 * glm::length(way))) return std::nullopt;
     return glm::normalize(axis);
 }
@@ -278,7 +278,7 @@ private:
                         const glm::dvec3& side, Muscle& muscle) {
         muscle.origin = origin;
         muscle.insertion = insertion;
-        muscle.side = glm::normalize(perpendicular(side, glm::normalize(insertion - origin)));
+        muscle.side = glm::normalize(perpendicularPart(side, glm::normalize(insertion - origin)));
     }
 
     /// The thumb's direction from the hand, or the front without one; perpendicular to the forearm.
@@ -286,10 +286,10 @@ private:
         const glm::dvec3 along = glm::normalize(centre(hand) - centre(elbow));
         const auto thumb = joint("Thumb1");
         const glm::dvec3 way =
-            thumb ? perpendicular(centre(*thumb) - centre(hand), along) : glm::dvec3(0.0);
+            thumb ? perpendicularPart(centre(*thumb) - centre(hand), along) : glm::dvec3(0.0);
         return glm::length(way) > 0.1 * glm::distance(centre(hand), centre(elbow))
                    ? way
-                   : perpendicular(_body->front, along);
+                   : perpendicularPart(_body->front, along);
     }
 
     /// The direction that the palm faces, unit.
@@ -304,10 +304,10 @@ private:
         const glm::dvec3 along = glm::normalize(centre(hand) - centre(elbow));
         glm::dvec3 side = palm(elbow, hand);
         if (const auto axis = findMainAxis(_skeleton, _joints, elbow)) {
-            const glm::dvec3 inner = perpendicular(_isLeft ? *axis : -*axis, along);
+            const glm::dvec3 inner = perpendicularPart(_isLeft ? *axis : -*axis, along);
             side += inner;
         }
-        return glm::normalize(perpendicular(side, along));
+        return glm::normalize(perpendicularPart(side, along));
     }
 
     const RestSkeleton& _skeleton;

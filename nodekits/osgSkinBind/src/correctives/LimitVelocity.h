@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_SHAPES_LIMITSTEPS_H
-#define OSGSKINBIND_SHAPES_LIMITSTEPS_H
+#ifndef OSGSKINBIND_CORRECTIVES_LIMITVELOCITY_H
+#define OSGSKINBIND_CORRECTIVES_LIMITVELOCITY_H
 
-#include "shapes/ShapeFit.h"
-#include "shapes/ShapedJoint.h"
+#include "correctives/ShapeFit.h"
+#include "correctives/ShapedJoint.h"
 
 namespace osgSkin {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_SHAPES_SHAPEFIT_H
-#define OSGSKINBIND_SHAPES_SHAPEFIT_H
+#ifndef OSGSKINBIND_CORRECTIVES_SHAPEFIT_H
+#define OSGSKINBIND_CORRECTIVES_SHAPEFIT_H
 
 #include <osgSkin/Correctives>
 

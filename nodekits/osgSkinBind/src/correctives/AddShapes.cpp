@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bind/AddShapes.h"
+#include "correctives/AddShapes.h"
 
-#include "muscles/Muscles.h"
+#include "correctives/MakeShapes.h"
+#include "correctives/Muscles.h"
+#include "correctives/ShapeFit.h"
 #include "ratios/JointRatios.h"
-#include "shapes/MakeShapes.h"
-#include "shapes/ShapeFit.h"
 
 namespace osgSkin {
 

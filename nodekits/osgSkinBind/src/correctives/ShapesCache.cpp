@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bind/ShapesCache.h"
+#include "correctives/ShapesCache.h"
 
-#include "bind/AddShapes.h"
-#include "shapes/MakeShapes.h"
+#include "correctives/AddShapes.h"
+#include "correctives/MakeShapes.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/Version>
