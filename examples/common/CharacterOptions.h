@@ -31,10 +31,6 @@ inline void addCharacterOptions(CLI::App& app, osgSkin::LoadOptions& options) {
         app.add_option_function<std::string>(option.flag(), set, meaning)
             ->type_name(option.values)
             ->group("Options of the character, which override its file's");
-        if (option.formerWord.empty()) continue;
-        osgSkin::CharacterOption former;
-        former.word = option.formerWord;
-        app.add_option_function<std::string>(former.flag(), set)->group(""); // hidden from the help
     }
 }
 

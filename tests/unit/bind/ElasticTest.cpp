@@ -17,7 +17,7 @@
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
 
-#include <bind/ShapesCache.h>
+#include <correctives/ShapesCache.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>

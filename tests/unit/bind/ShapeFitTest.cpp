@@ -3,10 +3,10 @@
 // The reach of shapes around joints: shorter if something else is close.
 //
 // Shapes that move no vertex much faster than the joint rotates.
-#include "shapes/ShapeFit.h"
+#include "correctives/ShapeFit.h"
 #include "SharedBody.h"
-#include "shapes/LimitVelocity.h"
-#include "shapes/ShapedJoint.h"
+#include "correctives/LimitVelocity.h"
+#include "correctives/ShapedJoint.h"
 
 #include <osgSkinBind/Bind>
 

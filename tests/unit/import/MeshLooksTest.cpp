@@ -364,7 +364,7 @@ TEST(Pictures, OfOtherFormatsAreReadWhereFormatsAllowThem) {
     const std::string content = written("rgb");
     ASSERT_FALSE(content.empty());
     savePicture("other.rgb", content);
-    for (const char* words : {"", "formats=obj,rgb", "formats=all", "formats=obj pictures=rgb"})
+    for (const char* words : {"", "formats=obj,rgb", "formats=all", "formats=obj images=rgb"})
         EXPECT_TRUE(drawnWith("other.rgb", words).image.valid()) << words;
     expectRefused("other.rgb", content, "the format \"rgb\" is not allowed", "formats=obj");
     savePicture("ours.png", written("png"));

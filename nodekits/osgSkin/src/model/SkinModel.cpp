@@ -334,6 +334,9 @@ SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
 
 namespace {
 
+/// The most joints that all vertices together follow: small files could otherwise take very long.
+constexpr std::size_t kMaxFollowed = 1'000'000'000;
+
 [[noreturn]] void refuse(const std::string& what) {
     throw Error("skin model: " + what);
 }
@@ -371,7 +374,7 @@ osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
     checkVertices(from.positions, from.normals, from.positions.size());
     checkOrder(from.order, from.positions.size());
     const std::vector<std::uint32_t> places = productPlaces(productOrder(from.joints));
-    std::size_t vertices = 0, links = 0, ratios = 0;
+    std::size_t vertices = 0, links = 0, ratios = 0, followed = 0;
     for (SkinModel::Group& group : from.groups) {
         if (group.vertexCount == 0 || group.vertexCount > from.positions.size() - vertices ||
             group.linkCount > from.links.size() - links)
@@ -385,6 +388,8 @@ osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
             own, own + group.linkCount, [](const SkinModel::Link& l) { return l.partial; }));
         vertices += group.vertexCount;
         links += group.linkCount;
+        followed += std::size_t{group.vertexCount} * group.linkCount;
+        if (followed > kMaxFollowed) refuse("its vertices follow too many joints");
         ratios += std::size_t{group.vertexCount} * group.partialCount;
         if (ratios > from.ratios.size()) break;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/Bind>
 
-#include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
+#include "correctives/AddShapes.h"
 #include "garments/SkinLayers.h"
 #include "joints/JointPlan.h"
 #include "mesh/SurfaceQueries.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <osgSkinBind/BindWeights>
 
-#include "bind/AddShapes.h"
 #include "bind/CheckOptions.h"
+#include "correctives/AddShapes.h"
 #include "joints/JointPlan.h"
 #include "mesh/SurfaceQueries.h"
 #include "mesh/WeldedMesh.h"

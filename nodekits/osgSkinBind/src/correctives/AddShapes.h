@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef OSGSKINBIND_CORRECTIVES_ADDSHAPES_H
+#define OSGSKINBIND_CORRECTIVES_ADDSHAPES_H
+
+#include "garments/SkinLayers.h"
+#include "joints/JointPlan.h"
+#include "mesh/WeldedMesh.h"
+
+#include <osgSkin/Binding>
+
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// The options with defaults for the unset ones.
+/// \param ownRatios true if bind() computes the ratios, false for an artist's weights
+BindOptions decided(BindOptions options, bool ownRatios);
+
+/// Adds what goes beyond the paper: correctives for shapes and muscles, gradients for normals.
+/// \param layers the shells that lie on others; may be null
+/// \param options with shapes and normals decided()
+/// \param binding of the mesh that `mesh` was welded from
+/// \param progress of this part of the work
+/// \param notes gets a line for each request that could not be met
+void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+               const WeldedMesh& mesh, const SkinLayers* layers, const BindOptions& options,
+               const Progress& progress, Binding& binding, std::vector<std::string>& notes);
+
+/// The approximate fraction of binding's time that is spent before addShapes().
+/// \param options with shapes decided()
+double shareWithoutShapes(const BindOptions& options);
+
+/// Elastic shapes, from the cache in `options.cacheFolder` if they are there. Without a folder they
+/// are always computed.
+/// \param notes gets those of makeElasticShapes(), and a line if a file cannot be used or written
+Correctives cachedElasticShapes(const RestSkeleton& skeleton,
+                                const std::vector<PlannedJoint>& joints, const WeldedMesh& mesh,
+                                const SkinLayers* layers, const BindOptions& options,
+                                const Progress& progress, const Binding& binding,
+                                std::vector<std::string>& notes);
+
+/// Adds normals' correctives to a binding that has correctives and gradients: each joint is bent
+/// over its whole range, and the remaining error of the corrected skin's normals is fitted by the
+/// functions that the joint already has.
+/// \param binding of the mesh that `mesh` was welded from; changed
+void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding);
+
+} // namespace osgSkin
+
+#endif

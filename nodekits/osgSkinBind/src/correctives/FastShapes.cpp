@@ -1,0 +1,697 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "correctives/MakeShapes.h"
+
+#include "correctives/ShapeFit.h"
+#include "correctives/ShapedJoint.h"
+#include "regions/HermiteRatio.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace osgSkin {
+namespace {
+
+/// A bent joint. Points are relative to its centre, in the space of the bone above at rest.
+struct FoldShape {
+    glm::dvec3 above;    ///< a: unit, direction of the bone above
+    glm::dvec3 boneRest; ///< b0: unit, the bone at rest
+    glm::dvec3 bone;     ///< b: unit, the bent bone
+    double radius;       ///< of the limb
+    double angle;        ///< between a and b, degrees: 0 is straight
+    double angleAtRest;  ///< between a and b0
+    /// Unit normal, towards the child's side, of the plane in which both sides meet: the bisecting
+    /// plane, or one that leaves more room to the side with more flesh.
+    glm::dvec3 normal;
+};
+
+/// How much a vertex belongs to the child's side of the joint, 0 to 1.
+double childShare(const FoldShape& fold, const glm::dvec3& rest);
+
+/// The remaining bulge, in limb radii.
+constexpr double kBulgeLeft = 0.005;
+
+/// Distance along the bone, in radii, beyond which sections are restored wholly.
+constexpr double kRestoreFull = 2.0;
+
+/// Depths inside the fold between which widening sets in, in radii from the bone.
+constexpr double kWidenFrom = -1.5;
+constexpr double kWidenFull = -0.5;
+
+/// Half the width of the transition from the parent's to the child's side, in radii.
+constexpr double kSideWidth = 0.25;
+
+/// Sine of the least angle between the bones at which a limb has an inner side.
+constexpr double kMinFold = 0.1;
+
+/// Gap between the skins on both sides of a fold, far from the joint, and how softly they meet, in
+/// radii.
+constexpr double kGap = 0.2;
+constexpr double kSoftness = 0.2;
+
+/// Angles between which the press sets in, in degrees.
+constexpr double kPressFrom = 45.0;
+constexpr double kPressFull = 75.0;
+
+/// The same for the crease, and how far from the joint's plane it reaches, in radii.
+constexpr double kCreaseFrom = 80.0;
+constexpr double kCreaseFull = 120.0;
+constexpr double kCreaseCore = 0.1;
+constexpr double kCreaseEdge = 0.5;
+
+/// A smooth maximum.
+double softMax(double a, double b, double width) {
+    return 0.5 * (a + b + std::sqrt((a - b) * (a - b) + width * width));
+}
+
+/// 0 up to the angle `from`, 1 beyond `full`, in degrees; later if the limb is bent at rest.
+double since(const FoldShape& fold, double from, double full) {
+    return hermiteRatio((fold.angle - std::max(from, fold.angleAtRest)) / (full - from));
+}
+
+/// Direction, away from the joint, of the bone beside a vertex; the bisecting plane separates both.
+glm::dvec3 boneOf(const FoldShape& fold, const glm::dvec3& posed) {
+    return glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
+}
+
+/// Signed distance at rest from the plane that bisects the joint; positive on the child's side.
+double heightAtRest(const FoldShape& fold, const glm::dvec3& rest) {
+    return glm::dot(rest, glm::normalize(fold.above + fold.boneRest));
+}
+
+/// Signed distance from the bisecting plane that pressed skin keeps.
+double limitOf(const FoldShape& fold, const glm::dvec3& rest) {
+    const double h0 = heightAtRest(fold, rest);
+    return kGap * fold.radius * h0 / (std::abs(h0) + fold.radius);
+}
+
+/// A smooth minimum of `wish` and `room`, never more than either; both at least 0.
+double limitedTo(double wish, double room) {
+    if (!(room > 0.0)) return 0.0;
+    const double t = wish / room, square = t * t;
+    return wish / std::sqrt(std::sqrt(1.0 + square * square));
+}
+
+/// Distance from the bone at rest, blended where both sides of the joint meet.
+double distanceAtRest(const FoldShape& fold, const glm::dvec3& rest) {
+    const auto from = [&](const glm::dvec3& bone) {
+        const double z = std::max(glm::dot(bone, rest), 0.0);
+        return std::sqrt(std::max(glm::dot(rest, rest) - z * z, 0.0));
+    };
+    return glm::mix(from(-fold.above), from(fold.boneRest), childShare(fold, rest));
+}
+
+/// A bone that skin is restored to.
+struct RestoringBone {
+    glm::dvec3 atRest; ///< unit, away from the joint
+    glm::dvec3 posed;
+    glm::dquat turn; ///< takes `atRest` to `posed`
+    double side;     ///< 1 on the child's side of the joint, -1 on the parent's
+};
+
+/// The displacement across the bone.
+glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const glm::dvec3& rest,
+                         const glm::dvec3& clamped) {
+    const glm::dvec3& m = bone.posed;
+    const double z = glm::dot(m, clamped);
+    const double share = hermiteRatio(z / (kRestoreFull * fold.radius));
+    if (!(share > 0.0)) return glm::dvec3(0.0);
+    const glm::dvec3 radial = bone.turn * (rest - glm::dot(bone.atRest, rest) * bone.atRest);
+    glm::dvec3 move = share * (radial - (clamped - z * m));
+    const glm::dvec3 inwards = fold.bone - fold.above;
+    const glm::dvec3 across = inwards - glm::dot(m, inwards) * m;
+    const double length = glm::length(across);
+    if (length < kMinFold) return move;
+    const glm::dvec3 inner = across / length;
+    const double wish = glm::dot(inner, move);
+    if (!(wish > 0.0)) return move;
+    // If the plane's normal leans towards the bone, `inner` points to the plane.
+    const glm::dvec3 normal = bone.side * fold.normal;
+    const double room = (glm::dot(normal, clamped) - bone.side * limitOf(fold, rest)) /
+                        std::max(-glm::dot(normal, inner), 1e-3);
+    return move + (limitedTo(wish, room) - wish) * inner;
+}
+
+/// Against bulges: moves a vertex back to its distance from the bone at rest, unless it is nearer.
+glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
+    const bool onParent = glm::dot(fold.above + fold.bone, posed) < 0.0;
+    const glm::dvec3 m = onParent ? -fold.above : fold.bone;
+    const glm::dvec3 m0 = onParent ? -fold.above : fold.boneRest;
+    const double z = std::max(glm::dot(m, posed), 0.0);
+    const double z0 = std::max(glm::dot(m0, rest), 0.0);
+    const double d = std::sqrt(std::max(glm::dot(posed, posed) - z * z, 0.0));
+    const double d0 = std::sqrt(std::max(glm::dot(rest, rest) - z0 * z0, 0.0));
+    const double t = std::max(d - d0, 0.0);
+    if (!(t > 0.0)) return posed;
+    const double k = t * t / ((t + kBulgeLeft * fold.radius) * d);
+    return (1.0 - k) * posed + k * z * m;
+}
+
+/// Moves a vertex across its bone to where it would be if it followed the bone rigidly; its
+/// position along the bone stays. Plain skin lags behind the bone, so it leaves the inner side and
+/// bulges on the outer one; this restores the sections beside the joint. Skin of the inner side
+/// stops before the plane in which both sides meet.
+/// \param clamped of clampBulge()
+/// \param turn the whole bend with the vertex's own share of the twist
+glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped,
+                          const glm::dquat& turn) {
+    const double childs = childShare(fold, rest);
+    const glm::dquat unit(1.0, 0.0, 0.0, 0.0);
+    glm::dvec3 moved(0.0);
+    if (childs > 0.0)
+        moved += childs * restoringMove(fold, {fold.boneRest, fold.bone, turn, 1.0}, rest, clamped);
+    if (childs < 1.0)
+        moved += (1.0 - childs) *
+                 restoringMove(fold, {-fold.above, -fold.above, unit, -1.0}, rest, clamped);
+    return clamped + moved;
+}
+
+double childShare(const FoldShape& fold, const glm::dvec3& rest) {
+    const double h0 = heightAtRest(fold, rest);
+    return hermiteRatio(0.5 + 0.5 * h0 / (kSideWidth * fold.radius));
+}
+
+/// How far a vertex lies on the inner side of its bone, in radii.
+double depthIn(const FoldShape& fold, const glm::dvec3& posed) {
+    const glm::dvec3 inwards = fold.bone - fold.above;
+    const glm::dvec3 m = boneOf(fold, posed);
+    // Measured across the bone; along it even the outer side lies inwards of the joint.
+    const glm::dvec3 across = inwards - glm::dot(m, inwards) * m;
+    const double length = glm::length(across);
+    return length < 1e-6 ? 0.0 : glm::dot(across, posed) / (length * fold.radius);
+}
+
+/// Moves a vertex sideways, parallel to the joint's bend axis, by a share of its distance from the
+/// bone. The flanks and the inner side widen; the outer side keeps its shape.
+/// \param most the largest distance from the bone afterwards, over that at rest; a vertex that is
+///        farther away already stays
+glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed,
+                 double share, double most) {
+    const glm::dvec3 axis = glm::cross(fold.above, fold.bone);
+    const double sine = glm::length(axis);
+    if (sine < kMinFold) return posed;
+    const glm::dvec3 sideways = axis / sine;
+    const double at = glm::dot(sideways, posed);
+    const double z = std::max(glm::dot(boneOf(fold, posed), posed), 0.0);
+    const double across = glm::dot(posed, posed) - z * z - at * at; // squared
+    const double mostAcross = most * distanceAtRest(fold, rest);
+    const double room = std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
+    const double inside =
+        hermiteRatio((depthIn(fold, posed) - kWidenFrom) / (kWidenFull - kWidenFrom));
+    const double move = limitedTo(share * inside * std::abs(at), room);
+    return posed + std::copysign(move, at) * sideways;
+}
+
+/// Against self-intersection: keeps a vertex on its own side of the plane in which both sides meet,
+/// and presses the skin flat against it.
+glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
+    const double onset = since(fold, kPressFrom, kPressFull);
+    const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
+    if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
+    const glm::dvec3& n = fold.normal;
+    const double r = fold.radius;
+    const double h0 = heightAtRest(fold, rest);
+    const double h = glm::dot(posed, n);
+    const double limit = limitOf(fold, rest);
+    const double childs = softMax(h, limit, kSoftness * r);
+    const double parents = -softMax(-h, -limit, kSoftness * r);
+    const double side = childShare(fold, rest);
+    // The crease lies between both sides, else it would cut into the one pressed upon it.
+    const double deep = since(fold, kCreaseFrom, kCreaseFull) *
+                        (1.0 - hermiteRatio((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
+    const double pressed = glm::mix(glm::mix(parents, childs, side), limit, deep);
+    const double inside = hermiteRatio(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
+    return posed + onset * inside * (pressed - h) * n;
+}
+
+/// Areas of the sections across both bones of a bent limb, at fixed distances from the joint.
+/// Points are relative to the joint's centre, one for each of its vertices.
+class JointSections {
+public:
+    static constexpr std::size_t kCount = 8; ///< of each bone
+    static constexpr double kStep = 0.4;     ///< distance between sections, in radii
+
+    /// One value for each section, the nearest to the joint first.
+    using Values = std::array<double, kCount>;
+    struct Sides {
+        Values parent{}, child{};
+    };
+
+    /// \param joint between limbs; must outlive this object
+    explicit JointSections(const ShapedJoint& joint);
+
+    const Sides& atRest() const { return _atRest; }
+
+    /// The depth of the flesh on the child's inner side beside the joint, over the sum of the
+    /// child's and the parent's.
+    double childDepth() const { return _childDepth; }
+
+    /// Areas of posed skin across the posed bones.
+    Sides areasOf(const FoldShape& fold, const std::vector<glm::dvec3>& posed) const;
+
+    /// Interpolates the sections' values smoothly at a distance along a bone, in radii. The result
+    /// falls to 0 beyond the last section.
+    static double valueAt(const Values& values, double radii);
+
+private:
+    const ShapedJoint& _joint;
+    std::vector<bool> _isChilds; ///< for each triangle
+    Sides _atRest;
+    double _childDepth = 0.5;
+};
+
+/// A joint's skin at one bend, and its targets by closed forms. Points are relative to the joint's
+/// centre, one for each of its vertices.
+class BentSkin {
+public:
+    /// \param childShare the share of the angle between both bones that the child's flesh fills
+    BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare = 0.5);
+
+    /// Six times the volume between the skin and the joint's centre.
+    static double volumeOf(const ShapedJoint& joint, const std::vector<glm::dvec3>& points);
+
+    /// Where the vertices should be.
+    /// \param sections null at the trunk
+    std::vector<glm::dvec3> targets(double volumeAtRest, const JointSections* sections) const;
+
+    /// Weights of the vertices' targets, see JointShapes.
+    std::vector<double> weights() const;
+
+private:
+    std::vector<glm::dvec3> limbTargets(const JointSections& sections) const;
+    std::vector<glm::dvec3> widened(const std::vector<glm::dvec3>& points,
+                                    const JointSections::Sides& shares) const;
+    JointSections::Sides sharesFor(const std::vector<glm::dvec3>& shaped,
+                                   const JointSections& sections) const;
+    std::vector<glm::dvec3> trunkTargets(double volumeAtRest) const;
+
+    const ShapedJoint& _joint;
+    BendTwist _bend;
+    FoldShape _fold;
+    std::vector<glm::dvec3> _posed;
+};
+
+using Points = std::vector<glm::dvec3>;
+
+/// Sections are widened until they have this share of their area at rest.
+constexpr double kAreaKept = 0.97;
+
+/// Widths that are tried, as shares of the distance from the bone.
+constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
+
+/// Distance along the bone, in radii, beyond which sections are widened wholly; the joint itself
+/// keeps its shape.
+constexpr double kWidensFully = 1.2;
+
+/// Largest distance of widened skin from its bone, over that at rest: up to a bend, in degrees, and
+/// from a deeper one on.
+constexpr double kMaxOut = 1.0, kMaxOutAt = 120.0;
+constexpr double kMaxOutDeep = 1.26, kMaxOutDeepAt = 142.0;
+
+/// How deep inside a fold at the trunk bulges are still clamped, in radii of the limb.
+constexpr double kTrunkDepth = 0.3;
+
+/// The share that a limb at the trunk keeps of the volume that it gains by a bend: about as much is
+/// lost in the folds of other joints.
+constexpr double kGainKept = 0.5;
+
+/// Weight of the skin inside a fold, relative to that outside. It is low between limbs, as
+/// everybody sees the outside. It is high at the trunk, where nothing presses the inner skin flat:
+/// errors from fitting the outside would make it intersect itself.
+constexpr double kInsideLimbs = 0.1;
+constexpr double kInsideTrunk = 20.0;
+
+/// Distances along a bone, in radii, between which the depth of flesh is measured.
+constexpr double kDepthFrom = 1.0, kDepthTo = 2.5;
+
+/// How far the child's share of the depth may exceed one half.
+constexpr double kMaxUneven = 0.08;
+
+/// One bone with the skin of its side of the joint.
+struct Bone {
+    glm::dvec3 along;    ///< unit, away from the joint
+    glm::dvec3 boundary; ///< direction, across `along`, towards the plane in which both sides meet
+    double slope;        ///< distance of that plane from the bone, per unit along the bone
+};
+
+/// \param share of the angle between both bones that belongs to this one's side
+Bone boneAt(const glm::dvec3& along, const glm::dvec3& other, double share) {
+    const glm::dvec3 across = other - glm::dot(along, other) * along;
+    const double sine = glm::length(across);
+    // A straight limb has no fold. Its sections are closed curves, so any origin will do.
+    if (sine < 0.1) return {along, glm::dvec3(0.0), 0.0};
+    const double angle = std::atan2(sine, glm::dot(along, other));
+    return {along, across / sine, std::tan(share * angle)};
+}
+
+/// Adds the triangle's part of each section's area: half the cross product of the edge in which the
+/// triangle meets the section. Sections near the joint are open in the plane in which both sides
+/// meet; the origin lies in that plane, so that the missing edge would add nothing.
+void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
+                 JointSections::Values& areas) {
+    std::array<double, 3> z{};
+    for (std::size_t i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
+    const auto [least, most] = std::minmax_element(z.begin(), z.end());
+    const double from = std::ceil(std::max(*least, 0.0) / step);
+    if (!(from < JointSections::kCount + 1)) return;
+    for (auto k = std::max<std::size_t>(1, static_cast<std::size_t>(from));
+         k <= JointSections::kCount && double(k) * step < *most; ++k) {
+        const double at = double(k) * step;
+        const glm::dvec3 origin = at * (bone.along + bone.slope * bone.boundary);
+        glm::dvec3 enter(0.0), leave(0.0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            if ((z[i] < at) == (z[j] < at)) continue;
+            const glm::dvec3 x =
+                corners[i] + (at - z[i]) / (z[j] - z[i]) * (corners[j] - corners[i]) - origin;
+            (z[i] < at ? enter : leave) = x;
+        }
+        areas[k - 1] += 0.5 * glm::dot(bone.along, glm::cross(leave, enter));
+    }
+}
+
+JointSections::Sides areasAcross(const ShapedJoint& joint, const std::vector<bool>& isChilds,
+                                 const Bone& parent, const Bone& child, const Points& points) {
+    JointSections::Sides areas;
+    for (std::size_t t = 0; t < joint.triangles.size(); ++t) {
+        const auto& triangle = joint.triangles[t];
+        addTriangle({points[triangle[0]], points[triangle[1]], points[triangle[2]]},
+                    isChilds[t] ? child : parent, JointSections::kStep * joint.radius,
+                    isChilds[t] ? areas.child : areas.parent);
+    }
+    return areas;
+}
+
+/// The depth of the flesh on the inner side beside the joint (90th percentile); 0 if not known.
+double depthOf(const ShapedJoint& joint, const glm::dvec3& along) {
+    if (!(glm::length(joint.hinge) > 0.0)) return 0.0;
+    const glm::dvec3 inwards =
+        glm::normalize(glm::cross(joint.hinge, glm::dot(along, joint.bone) > 0.0 ? along : -along));
+    std::vector<double> depths;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
+        const double z = glm::dot(along, vertex.from) / joint.radius;
+        if (z > kDepthFrom && z < kDepthTo && vertex.limb > 0.5)
+            depths.push_back(glm::dot(inwards, vertex.from));
+    }
+    if (depths.size() < 8) return 0.0;
+    const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
+    std::nth_element(depths.begin(), at, depths.end());
+    return std::max(*at, 0.0);
+}
+
+double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+/// Unit normal of a plane between the bones, at a share of the angle between them.
+glm::dvec3 planeBetween(const glm::dvec3& above, const glm::dvec3& bone, double childShare) {
+    const glm::dvec3 sum = above + bone, inwards = bone - above;
+    if (glm::length(sum) < 1e-3) return bone;
+    const glm::dvec3 normal = glm::normalize(sum);
+    if (glm::length(inwards) < 1e-3) return normal;
+    const double angle = glm::pi<double>() - glm::radians(degreesBetween(above, bone));
+    const double lean = (childShare - 0.5) * angle;
+    return std::cos(lean) * normal + std::sin(lean) * glm::normalize(inwards);
+}
+
+FoldShape foldAt(const ShapedJoint& joint, const glm::dquat& turn, double childShare) {
+    const glm::dvec3 bone = turn * joint.bone;
+    return {joint.above,
+            joint.bone,
+            bone,
+            joint.radius,
+            degreesBetween(joint.above, bone),
+            degreesBetween(joint.above, joint.bone),
+            planeBetween(joint.above, bone, childShare)};
+}
+
+Points between(Points from, const Points& to, double share) {
+    for (std::size_t i = 0; i < from.size(); ++i) from[i] += share * (to[i] - from[i]);
+    return from;
+}
+
+double maxOutAt(double angle) {
+    return glm::mix(kMaxOut, kMaxOutDeep,
+                    hermiteRatio((angle - kMaxOutAt) / (kMaxOutDeepAt - kMaxOutAt)));
+}
+
+/// \param radii along the bone
+double widthAt(const JointSections::Values& shares, double radii) {
+    return hermiteRatio(radii / kWidensFully) * JointSections::valueAt(shares, radii);
+}
+
+/// Finds the share by which each section of one bone is widened, from areas at growing shares.
+class WidthSearch {
+public:
+    WidthSearch(const JointSections::Values& atRest, const JointSections::Values& areas)
+        : _areas(areas) {
+        for (std::size_t k = 0; k < atRest.size(); ++k) {
+            _missing[k] = kAreaKept * atRest[k] - areas[k];
+            _found[k] = !(_missing[k] > 0.0);
+        }
+    }
+
+    /// \param areas of the sections if all are widened by `share`
+    void add(double share, const JointSections::Values& areas) {
+        for (std::size_t k = 0; k < areas.size(); ++k) {
+            if (_found[k]) continue;
+            const double gained = areas[k] - _areas[k];
+            const double part = gained > 0.0 ? std::min(1.0, _missing[k] / gained) : 1.0;
+            shares[k] = glm::mix(_last, share, part);
+            _found[k] = part < 1.0;
+            _missing[k] -= gained;
+            _areas[k] = areas[k];
+        }
+        _last = share;
+    }
+
+    JointSections::Values shares{};
+
+private:
+    JointSections::Values _areas, _missing{};
+    std::array<bool, JointSections::kCount> _found{};
+    double _last = 0.0;
+};
+
+JointSections::JointSections(const ShapedJoint& joint) : _joint(joint) {
+    const double child = depthOf(joint, joint.bone), parent = depthOf(joint, -joint.above);
+    if (child > 0.0 && parent > 0.0)
+        _childDepth = std::clamp(child / (child + parent), 0.5, 0.5 + kMaxUneven);
+    Points points;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) points.push_back(vertex.from);
+    const glm::dvec3 normal = joint.above + joint.bone;
+    for (const auto& t : joint.triangles)
+        _isChilds.push_back(glm::dot(points[t[0]] + points[t[1]] + points[t[2]], normal) > 0.0);
+    _atRest = areasAcross(joint, _isChilds, boneAt(-joint.above, joint.bone, 1.0 - _childDepth),
+                          boneAt(joint.bone, -joint.above, _childDepth), points);
+}
+
+JointSections::Sides JointSections::areasOf(const FoldShape& fold, const Points& posed) const {
+    return areasAcross(_joint, _isChilds, boneAt(-fold.above, fold.bone, 1.0 - _childDepth),
+                       boneAt(fold.bone, -fold.above, _childDepth), posed);
+}
+
+double JointSections::valueAt(const Values& values, double radii) {
+    // Quadratic B-splines: continuous slopes.
+    const double t = radii / kStep - 1.0;
+    const auto middle = static_cast<std::ptrdiff_t>(std::floor(std::clamp(t, -2.0, 100.0) + 0.5));
+    const double f = std::clamp(t, -2.0, 100.0) - double(middle);
+    const auto at = [&](std::ptrdiff_t i) {
+        if (i >= static_cast<std::ptrdiff_t>(kCount)) return 0.0;
+        return values[static_cast<std::size_t>(std::max<std::ptrdiff_t>(i, 0))];
+    };
+    return 0.5 * (0.5 - f) * (0.5 - f) * at(middle - 1) + (0.75 - f * f) * at(middle) +
+           0.5 * (0.5 + f) * (0.5 + f) * at(middle + 1);
+}
+
+BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare)
+    : _joint(joint), _bend(bend),
+      _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)) {
+    for (const ShapedJoint::Vertex& vertex : joint.vertices)
+        _posed.push_back(joint.turnOf(vertex, bend) * vertex.from);
+}
+
+double BentSkin::volumeOf(const ShapedJoint& joint, const Points& points) {
+    double volume = 0.0;
+    for (const std::array<std::uint32_t, 3>& t : joint.triangles)
+        volume += glm::dot(points[t[0]], glm::cross(points[t[1]], points[t[2]]));
+    return volume;
+}
+
+Points BentSkin::targets(double volumeAtRest, const JointSections* sections) const {
+    return sections ? limbTargets(*sections) : trunkTargets(volumeAtRest);
+}
+
+Points BentSkin::widened(const Points& points, const JointSections::Sides& shares) const {
+    Points result;
+    const double r = _joint.radius, most = maxOutAt(_fold.angle);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 &x = points[i], &rest = _joint.vertices[i].from;
+        const double parents = widthAt(shares.parent, -glm::dot(_fold.above, x) / r);
+        const double childs = widthAt(shares.child, glm::dot(_fold.bone, x) / r);
+        const double side = childShare(_fold, rest);
+        result.push_back(widen(_fold, rest, x, glm::mix(parents, childs, side), most));
+    }
+    return result;
+}
+
+/// Shares by which sections are widened to keep their areas.
+JointSections::Sides BentSkin::sharesFor(const Points& shaped,
+                                         const JointSections& sections) const {
+    const JointSections::Sides areas = sections.areasOf(_fold, shaped);
+    WidthSearch parent(sections.atRest().parent, areas.parent),
+        child(sections.atRest().child, areas.child);
+    for (const double width : kWidths) {
+        JointSections::Sides all;
+        all.parent.fill(width);
+        all.child.fill(width);
+        const JointSections::Sides wide = sections.areasOf(_fold, widened(shaped, all));
+        parent.add(width, wide.parent);
+        child.add(width, wide.child);
+    }
+    return {parent.shares, child.shares};
+}
+
+Points BentSkin::limbTargets(const JointSections& sections) const {
+    Points shaped;
+    for (std::size_t i = 0; i < _posed.size(); ++i) {
+        const ShapedJoint::Vertex& vertex = _joint.vertices[i];
+        const glm::dquat turn = partialRotation(_bend, _joint.twistAxis, 1.0, vertex.twist);
+        const glm::dvec3 clamped = clampBulge(_fold, vertex.from, _posed[i]);
+        shaped.push_back(
+            pressFold(_fold, vertex.from, restoreSection(_fold, vertex.from, clamped, turn)));
+    }
+    // The fold takes area from the sections beside it, so flesh moves to their flanks.
+    Points targets = widened(shaped, sharesFor(shaped, sections));
+    for (std::size_t i = 0; i < _posed.size(); ++i) {
+        const ShapedJoint::Vertex& vertex = _joint.vertices[i];
+        targets[i] = _posed[i] + vertex.limb * vertex.fade * (targets[i] - _posed[i]);
+    }
+    return targets;
+}
+
+/// Removes the bulge outside, but no more volume than the bend has added.
+Points BentSkin::trunkTargets(double volumeAtRest) const {
+    Points lean;
+    for (std::size_t i = 0; i < _posed.size(); ++i) {
+        const ShapedJoint::Vertex& vertex = _joint.vertices[i];
+        const double outside =
+            1.0 - hermiteRatio(0.5 + 0.5 * depthIn(_fold, _posed[i]) / kTrunkDepth);
+        const glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
+        lean.push_back(_posed[i] + outside * vertex.limb * vertex.fade * (target - _posed[i]));
+    }
+    const double plain = volumeOf(_joint, _posed), now = volumeOf(_joint, lean);
+    const double least = plain - (1.0 - kGainKept) * std::max(plain - volumeAtRest, 0.0);
+    return now < least ? between(std::move(lean), _posed, (least - now) / (plain - now)) : lean;
+}
+
+std::vector<double> BentSkin::weights() const {
+    const double inside = _joint.isAtTrunk() ? kInsideTrunk : kInsideLimbs;
+    std::vector<double> weights;
+    for (const glm::dvec3& x : _posed)
+        weights.push_back(glm::mix(1.0, inside, hermiteRatio(0.5 + depthIn(_fold, x))));
+    return weights;
+}
+
+/// The number of modes of a joint. With two, knees at 120 degrees would still intersect themselves;
+/// shoulders and hips gain next to nothing by a second one, which would cost time at every vertex.
+/// A joint between limbs that bends in any direction has as many shapes as directions.
+std::size_t modesOf(CorrectiveJoint::Basis basis) {
+    return basis == CorrectiveJoint::Basis::TurnedHinge ? 3
+           : basis == CorrectiveJoint::Basis::Ball      ? 1
+                                                        : CorrectiveJoint::kMaxModes;
+}
+
+/// Negligible displacement, in radii of the limb: of all vertices by a mode, and of a vertex by its
+/// last modes (not for joints that bend in any direction).
+constexpr double kFitTolerance = 1e-2;
+constexpr double kMinVertexOffset = 2e-2;
+
+/// Vertices of hinges whose largest offset is less than the first value stay; their offsets grow to
+/// the whole at the second one. In radii of the limb.
+constexpr double kUntouched = 0.07;
+constexpr double kTouched = 0.15;
+
+std::vector<BendTwist> bendsOf(const ShapedJoint& joint) {
+    if (joint.functions.basis == CorrectiveJoint::Basis::TurnedHinge) return turnedBends(joint);
+    std::vector<BendTwist> bends;
+    for (const glm::dvec2& sample : bendSamples(joint)) bends.push_back(joint.bendAt(sample));
+    return bends;
+}
+
+ShapedJoint turnedWherePossible(ShapedJoint joint) {
+    if (joint.functions.basis == CorrectiveJoint::Basis::Hinge) setTurnedHinge(joint);
+    return joint;
+}
+
+JointShapes shapesOf(const ShapedJoint& joint) {
+    JointShapes shapes;
+    shapes.functions = joint.functions;
+    std::vector<glm::dvec3> atRest;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
+        shapes.vertices.push_back(vertex.index);
+        atRest.push_back(vertex.from);
+    }
+    const double volumeAtRest = BentSkin::volumeOf(joint, atRest);
+    std::optional<JointSections> sections;
+    if (!joint.isAtTrunk()) sections.emplace(joint);
+    for (const BendTwist& bend : bendsOf(joint)) {
+        shapes.samples.push_back(
+            joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
+        const BentSkin skin(joint, bend, sections ? sections->childDepth() : 0.5);
+        // A hinge's splines can meet all of its shapes.
+        if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge)
+            shapes.weights.push_back(skin.weights());
+        const std::vector<glm::dvec3> targets =
+            skin.targets(volumeAtRest, sections ? &*sections : nullptr);
+        std::vector<glm::dvec3>& offsets = shapes.offsets.emplace_back();
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const ShapedJoint::Vertex& vertex = joint.vertices[i];
+            offsets.push_back(glm::conjugate(joint.turnOf(vertex, bend)) * targets[i] -
+                              vertex.from);
+        }
+    }
+    return shapes;
+}
+
+/// Fades out small offsets: vertices that hardly move would cost as much time as others.
+void fadeSmallOffsets(double radius, JointShapes& shapes) {
+    for (std::size_t v = 0; v < shapes.vertices.size(); ++v) {
+        double largest = 0.0;
+        for (const std::vector<glm::dvec3>& offsets : shapes.offsets)
+            largest = std::max(largest, glm::length(offsets[v]));
+        const double share =
+            hermiteRatio((largest / radius - kUntouched) / (kTouched - kUntouched));
+        for (std::vector<glm::dvec3>& offsets : shapes.offsets) offsets[v] *= share;
+    }
+}
+
+} // namespace
+
+FittedShapes fastShapesOf(const ShapedJoint& joint) {
+    JointShapes shapes = shapesOf(turnedWherePossible(joint));
+    const CorrectiveJoint::Basis basis = shapes.functions.basis;
+    if (basis == CorrectiveJoint::Basis::TurnedHinge) fadeSmallOffsets(joint.radius, shapes);
+    FittedShapes result = fitShapes(shapes, {modesOf(basis), kFitTolerance * joint.radius});
+    if (basis != CorrectiveJoint::Basis::Round) result.tolerance = kMinVertexOffset * joint.radius;
+    return result;
+}
+
+Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                           const WeldedMesh& mesh, const Binding& binding) {
+    std::vector<FittedShapes> all;
+    for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding))
+        all.push_back(fastShapesOf(joint));
+    return packShapes(all, mesh.weldedOf);
+}
+
+} // namespace osgSkin

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "correctives/ShapedJoint.h"
+
+#include "joints/BodyAxes.h"
+#include "ratios/JointRatios.h"
+#include "regions/HermiteRatio.h"
+
+#include <osgSkin/GlmTypes>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgSkin {
+namespace {
+
+/// Sine of the lean towards the trunk beyond which skin belongs to the armpit.
+constexpr double kLean = 0.5;
+
+/// A limb's bones are at least this many radii long.
+constexpr double kLimbLength = 2.2;
+
+/// Limbs begin beside each other if their joints are no farther apart, in radii.
+constexpr double kBeside = 3.0;
+
+/// Sines of a limb's angle away from the trunk, relative to its rest pose, at which its armpit is
+/// open and closed.
+constexpr double kOpen = 0.75, kClosed = -0.25;
+
+/// Sine of the angle up to which two directions count as parallel.
+constexpr double kMinAcross = 0.1;
+
+/// Skin that follows a joint at the trunk by less counts as the trunk's.
+constexpr double kTrunkFollows = 0.25;
+
+/// Joints with fewer vertices are not shaped.
+constexpr std::size_t kMinVertices = 16;
+
+/// The limb's radius where it bends: the median distance from the bone's line of edges at which the
+/// bend ratio crosses 1/2; 0 if there are none.
+double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
+                const std::vector<double>& bend) {
+    std::vector<double> radii;
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (bend[v] < 0.5) continue;
+        for (std::uint32_t i = mesh.firstNeighbour[v]; i < mesh.firstNeighbour[v + 1]; ++i) {
+            const std::uint32_t next = mesh.neighbours[i];
+            if (bend[next] >= 0.5) continue;
+            const glm::dvec3 d = 0.5 * (mesh.positions[v] + mesh.positions[next]) - planned.centre;
+            radii.push_back(glm::length(d - planned.boneAxis * glm::dot(d, planned.boneAxis)));
+        }
+    }
+    if (radii.size() < 4) return 0.0;
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
+}
+
+/// For each joint whether it is a head, a hand or a foot, or below one. Fingers and toes are no
+/// limbs, even if they are long for their radius.
+std::vector<bool> withinExtremities(const std::vector<PlannedJoint>& joints) {
+    std::vector<bool> within(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        within[j] = joints[j].extremity ||
+                    (joints[j].parent >= 0 && within[static_cast<std::size_t>(joints[j].parent)]);
+    return within;
+}
+
+/// Whether faces look inwards.
+bool isInsideOut(const WeldedMesh& mesh) {
+    if (mesh.positions.empty()) return false;
+    const glm::dvec3 from = mesh.positions.front();
+    double volume = 0.0;
+    for (const std::array<std::uint32_t, 3>& t : mesh.triangles)
+        volume += glm::dot(mesh.positions[t[0]] - from,
+                           glm::cross(mesh.positions[t[1]] - from, mesh.positions[t[2]] - from));
+    return volume < 0.0;
+}
+
+/// A direction of the body across a joint's twist axis: from the root, or that of the bone above.
+glm::dvec3 acrossOf(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    const PlannedJoint& planned = joints[joint];
+    const glm::dvec3 fromRoot = planned.centre - joints[0].centre;
+    const bool isAlong =
+        glm::length(glm::cross(fromRoot, planned.twistAxis)) < kMinAcross * glm::length(fromRoot);
+    return isAlong ? planned.comingFrom : fromRoot;
+}
+
+/// Whether another limb begins at the trunk beside this joint.
+bool isBesideLimb(const std::vector<ShapedJoint>& all, const ShapedJoint& shaped) {
+    return std::any_of(all.begin(), all.end(), [&](const ShapedJoint& other) {
+        return &other != &shaped && other.isAtTrunk() &&
+               glm::distance(other.centre, shaped.centre) < kBeside * shaped.radius;
+    });
+}
+
+/// The side of a limb towards the root, if the root is not in line with the limb.
+Armpit pitOf(const glm::dvec3& root, const ShapedJoint& shaped, const ShapeReach& reach) {
+    Armpit pit{reach};
+    const glm::dvec3 fromRoot = shaped.centre - root;
+    const glm::dvec3 across = fromRoot - shaped.bone * glm::dot(fromRoot, shaped.bone);
+    const double length = glm::length(across);
+    if (length > kMinAcross * glm::length(fromRoot)) pit.away = across / length;
+    return pit;
+}
+
+/// Adds the vertices and triangles within reach, in a closed armpit within the pit's reach.
+void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+             const JointRatios& ratios, bool trunkToo, bool insideOut, const ShapeReach& reach,
+             const Armpit& pit, ShapedJoint& shaped) {
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
+    const auto above = static_cast<std::uint32_t>(regionAbove(joints, shaped.functions.joint));
+    shaped.away = pit.away;
+    const auto limbOf = [&](std::uint32_t v, const Influence& own) {
+        if (shaped.isAtTrunk())
+            return trunkToo ? 1.0 : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
+        return above == 0 ? 1.0 : ratios.bend(v, above);
+    };
+    const auto add = [&](std::uint32_t v, bool withinReach) {
+        const glm::dvec3 from = mesh.positions[v] - shaped.centre;
+        const double r = glm::length(from) / shaped.radius;
+        const Influence own = ratios.of(v, shaped.functions.joint);
+        const double limb = limbOf(v, own);
+        // Nothing may separate the skin from a rigid part that it meets.
+        const double loose = 1.0 - ratios.rigid(v, joints);
+        const double fade = reach.shareAt(r) * loose;
+        const double fadeClosed = reachTowards(from, reach, pit).shareAt(r) * loose;
+        if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
+        placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
+        shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
+                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0,
+                                   withinReach ? fadeClosed : 0.0});
+    };
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) add(v, true);
+    const auto within = static_cast<std::uint32_t>(shaped.vertices.size());
+    for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+        if (std::none_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t v) { return placeOf[v] < within; }))
+            continue;
+        for (const std::uint32_t v : triangle)
+            if (placeOf[v] == kNone) add(v, false);
+        const std::uint32_t second = placeOf[triangle[insideOut ? 2 : 1]];
+        const std::uint32_t third = placeOf[triangle[insideOut ? 1 : 2]];
+        shaped.triangles.push_back({placeOf[triangle[0]], second, third});
+    }
+}
+
+/// Angles are in degrees. How far a hinge bends beyond straight and sideways.
+constexpr double kBeyondStraight = 12.0;
+constexpr double kMaxSideways = 30.0;
+/// Between the flexions at which a hinge is also bent sideways.
+constexpr double kSidewaysStep = 30.0;
+/// How far a hinge rotates about the limb, and between samples of that.
+constexpr double kTurn = 32.0;
+constexpr double kTurnStep = 16.0;
+/// The share of a coordinate's range in which it is not clamped.
+constexpr double kNotClamped = 0.9;
+constexpr double kRoundKnotStep = 20.0;
+constexpr double kSampleStep = 15.0;
+constexpr double kRoundSampleStep = 10.0;
+constexpr int kDirections = 12;
+
+double sineOfHalf(double degrees) {
+    return std::sin(glm::radians(0.5 * degrees));
+}
+
+double degreesOf(double sineOfHalfAngle) {
+    return glm::degrees(2.0 * std::asin(sineOfHalfAngle));
+}
+
+/// Even values from `from` to `to`, at most `step` apart.
+std::vector<double> steps(double from, double to, double step) {
+    const int count = std::max(1, static_cast<int>(std::ceil((to - from) / step - 1e-9)));
+    std::vector<double> result;
+    for (int i = 0; i <= count; ++i) result.push_back(from + (to - from) * i / count);
+    return result;
+}
+
+void setHinge(const glm::dvec3& axis, double mostFlexion, double knotStep, ShapedJoint& joint) {
+    const double atRest = glm::degrees(std::atan2(
+        glm::dot(glm::cross(joint.above, joint.bone), axis), glm::dot(joint.above, joint.bone)));
+    const double most = std::clamp(mostFlexion - atRest, 30.0, 170.0);
+    const double least = -std::clamp(kBeyondStraight + atRest, 15.0, 90.0);
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::Hinge;
+    functions.axis = axis;
+    functions.low = {sineOfHalf(least), -sineOfHalf(kMaxSideways)};
+    functions.high = {sineOfHalf(most), sineOfHalf(kMaxSideways)};
+    for (const double angle : steps(least, most, knotStep))
+        functions.knots.push_back(sineOfHalf(angle));
+}
+
+glm::dvec3 perpendicular(const glm::dvec3& across, const glm::dvec3& w) {
+    const glm::dvec3 result = across - glm::dot(across, w) * w;
+    const double length = glm::length(result);
+    return length > 1e-3 * glm::length(across) ? result / length : anyPerpendicular(w);
+}
+
+void setRound(double mostFlexion, const glm::dvec3& across, ShapedJoint& joint) {
+    CorrectiveJoint& functions = joint.functions;
+    const double most = sineOfHalf(mostFlexion);
+    functions.basis = CorrectiveJoint::Basis::Round;
+    functions.axis = perpendicular(across, joint.twistAxis);
+    functions.low = glm::dvec2(-most);
+    functions.high = glm::dvec2(most);
+    for (const double angle : steps(0.0, mostFlexion, kRoundKnotStep))
+        functions.knots.push_back(sineOfHalf(angle) * sineOfHalf(angle));
+}
+
+/// Sines of the rest pose's bend beyond which it gives the main axis: always (12 degrees), and if
+/// nothing better is known (3 degrees).
+constexpr double kPlain = 0.21;
+constexpr double kFaint = 0.052;
+
+/// Cosine of the largest angle between a knee's axis and its main axis.
+constexpr double kMinAlong = 0.9;
+
+enum class End { None, Hand, Foot };
+
+/// The first hand or foot below the joint.
+End endOf(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+          std::size_t joint) {
+    for (std::size_t j = joint + 1; j < skeleton.joints.size(); ++j) {
+        if (!skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(joint))) continue;
+        if (joints[j].part == JointPart::Hand) return End::Hand;
+        if (joints[j].part == JointPart::Foot) return End::Foot;
+    }
+    return End::None;
+}
+
+} // namespace
+
+double ShapeReach::shareAt(double radii) const {
+    return 1.0 - hermiteRatio((radii - whole) / (end - whole));
+}
+
+ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const Armpit& pit) {
+    const double length = glm::length(direction);
+    if (!(length > 0.0)) return reach;
+    const double lean = -glm::dot(direction, pit.away) / length;
+    const double share = hermiteRatio(lean / kLean);
+    return {glm::mix(reach.whole, pit.reach.whole, share),
+            glm::mix(reach.end, pit.reach.end, share)};
+}
+
+double ShapedJoint::armpitClosure(const BendTwist& bend) const {
+    const double raised = glm::dot(partialRotation(bend, twistAxis, 1.0, 1.0) * bone, away);
+    return hermiteRatio((kOpen - raised) / (kOpen - kClosed));
+}
+
+std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
+                                          const std::vector<PlannedJoint>& joints,
+                                          const WeldedMesh& mesh, const Binding& binding,
+                                          const ShapeScope& scope) {
+    const JointRatios ratios(mesh, binding);
+    const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
+    const bool insideOut = isInsideOut(mesh);
+    std::vector<ShapedJoint> result;
+    const std::vector<bool> extremities = withinExtremities(joints);
+    std::vector<double> bend(mesh.vertexCount());
+    for (std::uint32_t j = 1; j < joints.size(); ++j) {
+        const PlannedJoint& planned = joints[j];
+        if (trunk[j] || extremities[j] || planned.rigid >= 0 || !planned.holdsRegion) continue;
+        const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
+        const bool atTrunk = trunk[above];
+        for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
+        ShapedJoint shaped;
+        shaped.radius = radiusAt(planned, mesh, bend);
+        if (!(shaped.radius > 0.0) || planned.boneLength < kLimbLength * shaped.radius ||
+            (!atTrunk && planned.lengthAbove < kLimbLength * shaped.radius))
+            continue;
+        shaped.centre = planned.centre;
+        shaped.twistAxis = binding.joints[j].twistAxis;
+        // No limb is above a shoulder or a hip: there the rest pose counts as straight.
+        shaped.above = atTrunk ? planned.boneAxis : planned.comingFrom;
+        shaped.bone = planned.boneAxis;
+        shaped.functions.joint = j;
+        if (atTrunk)
+            setBallRange(acrossOf(joints, j), shaped, scope.mostSwing);
+        else {
+            const std::optional<glm::dvec3> mainAxis = findMainAxis(skeleton, joints, j);
+            setBendRange(mainAxis, acrossOf(joints, j), shaped, scope.mostFlexion, scope.knotStep);
+            if (mainAxis) shaped.hinge = findHinge(skeleton, joints, j, *mainAxis);
+        }
+        result.push_back(std::move(shaped));
+    }
+    for (ShapedJoint& shaped : result) {
+        const bool beside = shaped.isAtTrunk() && isBesideLimb(result, shaped);
+        const ShapeReach& reach = !shaped.isAtTrunk() ? scope.betweenLimbs
+                                  : beside            ? scope.besideLimb
+                                                      : scope.atTrunk;
+        Armpit pit{reach};
+        if (shaped.isAtTrunk() && !beside) pit = pitOf(joints[0].centre, shaped, scope.inPit);
+        addSkin(mesh, joints, ratios, scope.trunkToo, insideOut, reach, pit, shaped);
+    }
+    result.erase(std::remove_if(result.begin(), result.end(),
+                                [](const ShapedJoint& shaped) {
+                                    return shaped.vertices.size() < kMinVertices;
+                                }),
+                 result.end());
+    return result;
+}
+
+void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
+                  ShapedJoint& joint, double mostFlexion, double knotStep) {
+    if (mainAxis)
+        setHinge(*mainAxis, mostFlexion, knotStep, joint);
+    else
+        setRound(mostFlexion, across, joint);
+}
+
+void setBallRange(const glm::dvec3& across, ShapedJoint& joint, double mostSwing) {
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::Ball;
+    functions.axis = perpendicular(across, joint.twistAxis);
+    functions.low = glm::dvec2(-sineOfHalf(mostSwing));
+    functions.high = -functions.low;
+}
+
+void setTurnedHinge(ShapedJoint& joint) {
+    CorrectiveJoint& functions = joint.functions;
+    functions.basis = CorrectiveJoint::Basis::TurnedHinge;
+    double low = functions.low.y, high = functions.high.y;
+    for (const BendTwist& bend : turnedBends(joint)) {
+        const double y = functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis).y;
+        low = std::min(low, y / kNotClamped);
+        high = std::max(high, y / kNotClamped);
+    }
+    functions.low.y = low;
+    functions.high.y = high;
+}
+
+std::vector<BendTwist> turnedBends(const ShapedJoint& joint) {
+    const CorrectiveJoint& functions = joint.functions;
+    std::vector<BendTwist> bends;
+    for (const double angle :
+         steps(degreesOf(functions.low.x), degreesOf(functions.high.x), kSampleStep)) {
+        if (std::abs(angle) < 1.0) continue;
+        const glm::dquat bent = glm::angleAxis(glm::radians(angle), joint.hinge);
+        for (const double turn : steps(-kTurn, kTurn, kTurnStep))
+            bends.push_back(splitBendTwist(glm::angleAxis(glm::radians(turn), joint.above) * bent *
+                                               glm::angleAxis(glm::radians(-turn), joint.bone),
+                                           joint.twistAxis));
+    }
+    return bends;
+}
+
+std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {
+    const CorrectiveJoint& functions = joint.functions;
+    std::vector<glm::dvec2> samples;
+    if (functions.basis == CorrectiveJoint::Basis::Hinge) {
+        const double least = degreesOf(functions.low.x), most = degreesOf(functions.high.x);
+        for (const double angle : steps(least, most, kSampleStep))
+            if (std::abs(angle) > 1.0) samples.emplace_back(sineOfHalf(angle), 0.0);
+        for (const double angle : steps(least, most, kSidewaysStep))
+            for (const double side : {functions.low.y, functions.high.y}) {
+                const glm::dvec2 xy(sineOfHalf(angle), 0.75 * side);
+                samples.push_back(xy * std::min(1.0, 0.99 / glm::length(xy)));
+            }
+        return samples;
+    }
+    for (const double angle : steps(0.0, degreesOf(functions.high.x), kRoundSampleStep))
+        for (int i = 0; angle > 0.0 && i < kDirections; ++i) {
+            const double direction = 2.0 * glm::pi<double>() * i / kDirections;
+            samples.push_back(sineOfHalf(angle) *
+                              glm::dvec2(std::cos(direction), std::sin(direction)));
+        }
+    return samples;
+}
+
+std::optional<glm::dvec3> findMainAxis(const RestSkeleton& skeleton,
+                                       const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    const PlannedJoint& planned = joints[joint];
+    const auto acrossTwist = [&planned](const glm::dvec3& axis) {
+        return glm::normalize(axis - planned.twistAxis * glm::dot(axis, planned.twistAxis));
+    };
+    const glm::dvec3 atRest = glm::cross(planned.comingFrom, planned.boneAxis);
+    const double sine = glm::length(atRest);
+    if (sine > kPlain) return acrossTwist(atRest);
+    const End end = endOf(skeleton, joints, joint);
+    const glm::dvec3 front = facing(joints);
+    if (end != End::None && glm::length(front) > 1e-6) {
+        const glm::dvec3 axis = glm::cross(planned.boneAxis, end == End::Hand ? front : -front);
+        if (glm::length(axis) > 0.3 * glm::length(front)) return acrossTwist(axis);
+    }
+    if (end != End::None && sine > kFaint) return acrossTwist(atRest);
+    return std::nullopt;
+}
+
+glm::dvec3 findHinge(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+                     std::size_t joint, const glm::dvec3& mainAxis) {
+    const std::optional<BodyAxes> body = bodyAxes(joints);
+    if (!body || endOf(skeleton, joints, joint) != End::Foot) return mainAxis;
+    const glm::dvec3 across = glm::cross(body->up, body->front);
+    const double along = glm::dot(across, mainAxis);
+    if (std::abs(along) < kMinAlong) return mainAxis;
+    return glm::normalize(mainAxis + std::copysign(1.0, along) * across);
+}
+
+} // namespace osgSkin
