@@ -82,10 +82,8 @@ endif()
 if(TARGET osgskinbake)
   osgskin_install_program(osgskinbake "write a character's posed skin as meshes")
   osgskin_install_program(osgskincrowd "show many characters, each in its own phase of its own clip")
-  osgskin_install_program(osgskinfigures "draw how a character is bound, beside other methods")
   osgskin_install_program(osgskinrecipes "show short programs for usual tasks")
   osgskin_install_program(osgskinthrow "show a figure that throws a ball")
-  osgskin_install_program(osgskintwist "compare skinning methods on a cylinder")
   osgskin_install_program(osgskinviewer "play a character and show how its skin is bound")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${CMAKE_INSTALL_DATADIR}/osgskin"
     COMPONENT programs FILES_MATCHING PATTERN "*.skin" PATTERN "*.obj" PATTERN "*.bvh"

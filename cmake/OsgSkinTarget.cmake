@@ -46,10 +46,33 @@ function(osgskin_settings target)
     POSITION_INDEPENDENT_CODE ON)
 endfunction()
 
+# osgskin_unity(TARGET): with OSGSKIN_UNITY, compiles the sources of each folder of src as one unit. Most
+# of a source's time is spent in OSG's headers. Sources that include CGAL or Highway stay alone: these
+# are slow to compile, and should be compiled on several processors.
+function(osgskin_unity target)
+  if(NOT OSGSKIN_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A unit has no main file, whose private classes may have members from unnamed namespaces.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "^src/(.+)/[^/]+[.]cpp$")
+      set(folder "${CMAKE_MATCH_1}")
+      file(STRINGS "${source}" alone REGEX "#include [<\"](CGAL|hwy)/" LIMIT_COUNT 1)
+      if(NOT alone)
+        set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 # osgskin_nodekit(NAME): settings of the shared library nodekits/NAME with the headers include/NAME.
 function(osgskin_nodekit name)
   string(TOUPPER ${name} upper)
   osgskin_settings(${name})
+  osgskin_unity(${name})
   target_compile_definitions(${name} PRIVATE ${upper}_LIBRARY)
   target_include_directories(${name} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"

@@ -1,13 +1,22 @@
 # SPDX-License-Identifier: MIT
-# osgskin_test(NAME SOURCES ... LINK ...): a GoogleTest program; each of its cases is a CTest test.
+# osgskin_test(NAME [SLOW] SOURCES ... LINK ...): a GoogleTest program; each of its cases is a CTest
+# test. Without SLOW, tests/run builds and runs it also without --all.
 #
 # OSGSKIN_SHARED_DATA is the folder of the optional third-party bodies and motions. Tests that need
 # them are skipped with a message if they are missing.
 function(osgskin_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "SLOW" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES} "${PROJECT_SOURCE_DIR}/tests/support/TempFolder.cpp")
+  set(label slow)
+  if(NOT arg_SLOW)
+    set(label quick)
+    add_dependencies(quick_tests ${name})
+  endif()
   osgskin_settings(${name})
   osgskin_precompile(${name})
+  if(OSGSKIN_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  endif()
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests/support")
   target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
@@ -15,7 +24,14 @@ function(osgskin_test name)
     OSGSKIN_DATA="${PROJECT_SOURCE_DIR}/data"
     OSGSKIN_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES ENVIRONMENT "OSG_LIBRARY_PATH=${PROJECT_BINARY_DIR}/lib")
+    PROPERTIES LABELS ${label} ENVIRONMENT "OSG_LIBRARY_PATH=${PROJECT_BINARY_DIR}/lib")
+endfunction()
+
+# osgskin_slow_tests(NAME...): at the end of a folder, makes its tests by add_test() slow, except those named.
+function(osgskin_slow_tests)
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  list(REMOVE_ITEM tests "" ${ARGN})
+  set_property(TEST ${tests} APPEND PROPERTY LABELS slow)
 endfunction()
 
 # osgskin_precompile(TARGET): saves GCC half of the time that it needs for a test program, which is

@@ -22,7 +22,7 @@ if [ $# -gt 0 ]; then
   done
 else
   osgskin_install $osgskin_show_packages
-  osgskin_build coverage
+  osgskin_build coverage all tests/all
   ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || failed=true # the table is still useful
 fi
 

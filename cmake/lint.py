@@ -58,15 +58,18 @@ def main():
     named = [str(pathlib.Path(name).resolve()) for name in sys.argv[2:]]
     units = collections.defaultdict(list)  # (folder, flags) -> sources
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        source = pathlib.Path(entry["file"])
-        if not source.is_relative_to(ROOT) or source.relative_to(ROOT).parts[0] not in FOLDERS:
-            continue
-        if named and str(source) not in named:
-            continue
-        alone = source.name if "HWY_TARGET_INCLUDE" in source.read_text() else ""
-        unit = units[source.parent, alone, tuple(compiler_flags(entry["command"]))]
-        if str(source) not in unit:
-            unit.append(str(source))
+        compiled = pathlib.Path(entry["file"])
+        # A unity build compiles files that include the sources.
+        sources = re.findall(r'#include "(.*)"', compiled.read_text()) if "/Unity/" in entry["file"] else [compiled]
+        for source in map(pathlib.Path, sources):
+            if not source.is_relative_to(ROOT) or source.relative_to(ROOT).parts[0] not in FOLDERS:
+                continue
+            if named and str(source) not in named:
+                continue
+            alone = source.name if "HWY_TARGET_INCLUDE" in source.read_text() else ""
+            unit = units[source.parent, alone, tuple(compiler_flags(entry["command"]))]
+            if str(source) not in unit:
+                unit.append(str(source))
     work = sorted(units.items(), key=lambda unit: -sum(len(pathlib.Path(s).read_text()) for s in unit[1]))
     print(f"clang-tidy: {sum(len(sources) for _, sources in work)} sources in {len(work)} units", flush=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 # Sourced by examples/run, tests/run and .ci/run: functions that install missing packages and build.
 
+# The whole build is configured at once, so that any target can be built later.
 osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev openscenegraph
   libglm-dev libcgal-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libstb-dev
-  libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev libdraco-dev"
+  libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev libdraco-dev libgtest-dev
+  libbenchmark-dev libegl-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
-osgskin_test_packages="libgtest-dev libbenchmark-dev libegl-dev libegl1 binutils dpkg-dev file locales assimp-testmodels python3"
+osgskin_test_packages="libegl1 binutils dpkg-dev file locales assimp-testmodels python3"
 
 # osgskin_install PACKAGE...: installs the Debian packages that are missing.
 osgskin_install() {
@@ -38,16 +40,34 @@ osgskin_install() {
   rm -f "$log"
 }
 
-# osgskin_build PRESET [CMAKE OPTION...]: configures and builds, quietly unless it fails.
+# osgskin_build PRESET TARGET...: configures and builds, and shows how far it is.
 osgskin_build() {
-  local preset=$1
+  local preset=$1 log
   shift
+  log=$osgskin_root/build-$preset.log
   echo "Building (preset $preset)"
-  cmake --preset "$preset" "$@" >"$osgskin_root/build-$preset.log" 2>&1 &&
-    cmake --build --preset "$preset" >>"$osgskin_root/build-$preset.log" 2>&1 || {
-    tail -n 60 "$osgskin_root/build-$preset.log" >&2
-    echo "The build failed; all of it is in $osgskin_root/build-$preset.log" >&2
+  cmake --preset "$preset" >"$log" 2>&1 &&
+    NINJA_STATUS='at %p after %e s: ' cmake --build --preset "$preset" --target "$@" 2>&1 |
+    tee -a "$log" | osgskin_progress || {
+    tail -n 60 "$log" >&2
+    echo "The build failed; all of it is in $log" >&2
     return 1
   }
-  rm -f "$osgskin_root/build-$preset.log"
+  rm -f "$log"
+}
+
+# Shows Ninja's lines "at 35% after 72.5 s: ..." as one that changes; a new one for every 10 % if that
+# is not on a terminal.
+osgskin_progress() {
+  local terminal=0
+  [ ! -t 1 ] || terminal=1
+  awk -v terminal="$terminal" '
+    /^at +[0-9]+% after / {
+      percent = $2 + 0
+      if (percent == shown || (!terminal && percent < shown + 10 && percent < 100)) next
+      shown = percent
+      printf terminal ? "\r  %3d %%, %.1f minutes" : "  %3d %%, %.1f minutes\n", percent, $4 / 60
+      fflush()
+    }
+    END { if (terminal && shown) print "" }'
 }

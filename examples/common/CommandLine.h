@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgSkin/Version>
-
-#include <cstdio>
-#include <iostream>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+namespace CLI {
+class Option;
+}
 
 namespace example {
 
@@ -15,49 +20,80 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The line that `--version` prints, in the form that help2man expects.
-inline std::string versionText(const std::string& program) {
-    return program + " (osgSkin) " + osgSkin::libraryVersion();
-}
-
-/// Finds empty arguments, for example from unset shell variables. Without this check, options would
-/// ignore them.
+/// The arguments of a program, with its `--help` and `--version`.
 ///
-/// \return an error message, or an empty string
-inline std::string findEmptyWord(int argc, const char* const* argv) {
-    bool hasOptions = true; // until "--"
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (word.empty())
-            return std::string(i > 1 ? argv[i - 1] : "the first word") +
-                   ": expected a name or number behind it, found an empty word";
-        if (hasOptions && word.rfind("--", 0) == 0 && word.find('=') == word.size() - 1)
-            return word + ": expected a name or number behind it, found none";
-        if (word == "--") hasOptions = false;
-    }
-    return {};
-}
+/// CLI11 parses them. CommandLine.cpp alone includes it: its headers take seconds to compile.
+class CommandLine {
+public:
+    /// An argument; its methods restrict it.
+    class Option {
+    public:
+        Option& required();
+        Option& needs(const Option& other);
+        Option& excludes(const Option& other);
+        /// A finite number.
+        Option& range(double least, double most);
+        Option& oneOf(const std::vector<std::string>& values);
+        /// The help shows the value that the variable has now.
+        Option& showDefault();
+        /// At most one value, or none behind the name.
+        Option& valueOptional();
+        /// The help shows this in place of the type, and lists the option under `group`; options of
+        /// the group "" are not listed.
+        Option& describe(const std::string& type, const std::string& group);
+        bool isGiven() const;
 
-/// Prints the message of findEmptyWord() on standard error; the program should exit with 2.
-///
-/// \return true if there is no empty argument
-inline bool hasNoEmptyWord(const std::string& program, int argc, const char* const* argv) {
-    const std::string wrong = findEmptyWord(argc, argv);
-    if (!wrong.empty()) std::cerr << program << ": " << wrong << std::endl;
-    return wrong.empty();
-}
+    private:
+        friend class CommandLine;
+        explicit Option(CLI::Option* option) : _option(option) {}
+        CLI::Option* _option;
+    };
 
-/// Returns a program's exit status after flushing standard output. Prints a message on standard
-/// error if that fails, for example because the disk is full.
-///
-/// \param program name of the program, for the message
-/// \param status exit status of the program so far
-/// \return `status`; 1 if it was 0 and standard output could not be written
-inline int finish(const std::string& program, int status) {
-    std::cout.flush();
-    if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
-    std::cerr << program << ": standard output cannot be written" << std::endl;
-    return status == 0 ? 1 : status;
-}
+    /// \param program the name for messages
+    /// \param description one sentence
+    /// \param footer the end of the help; the exit statuses are added
+    CommandLine(const std::string& program, const std::string& description,
+                const std::string& footer = {});
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    /// Adds an argument: an option if its name begins with "--", otherwise a positional one.
+    ///
+    /// \param value set by parse(); must outlive it. A vector takes any number of values: a
+    ///   positional argument several in a row, an option one each time it is given.
+    Option add(const std::string& name, std::string& value, const std::string& help = {});
+    Option add(const std::string& name, std::vector<std::string>& values,
+               const std::string& help = {});
+    Option add(const std::string& name, std::vector<std::size_t>& values,
+               const std::string& help = {});
+    Option add(const std::string& name, double& value, const std::string& help = {});
+    Option add(const std::string& name, std::optional<double>& value, const std::string& help = {});
+    Option add(const std::string& name, int& value, const std::string& help = {});
+    Option add(const std::string& name, unsigned int& value, const std::string& help = {});
+    Option add(const std::string& name, std::size_t& value, const std::string& help = {});
+    /// An option without a value.
+    Option add(const std::string& name, bool& value, const std::string& help = {});
+    /// Calls `set` with the value; what it throws is bad usage.
+    Option add(const std::string& name, const std::function<void(const std::string&)>& set,
+               const std::string& help = {});
+
+    /// Reads the arguments. Does not return if the help or the version was asked for: run() prints
+    /// these and exits with 0.
+    /// \throw UsageError with a suggestion for a misspelt option
+    void parse(int argc, const char* const* argv);
+
+    /// Calls `body`, which calls parse(), and prints what it throws.
+    ///
+    /// \param argc, argv refused if one is empty, for example from an unset shell variable
+    /// \return the exit status: that of `body`, 2 for a UsageError, 1 for other exceptions, or if
+    ///   standard output cannot be written
+    int run(int argc, const char* const* argv, const std::function<int()>& body);
+
+private:
+    struct Parser;
+    std::string _program;
+    std::unique_ptr<Parser> _parser;
+};
 
 } // namespace example

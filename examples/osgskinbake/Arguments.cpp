@@ -5,7 +5,6 @@
 #include "CommandLine.h"
 #include "Surface.h"
 
-#include <CLI/CLI.hpp>
 #include <osgDB/FileNameUtils>
 
 #include <cmath>
@@ -17,16 +16,6 @@
 
 namespace bake {
 namespace {
-
-const char kFooter[] =
-    "Frames are the motion file's own samples, counted from 0 after `skipFrames`; the last one of "
-    "a\n"
-    "range is included. A pose is that sample, not a blend. Meshes have the input mesh's own\n"
-    "vertices and faces, in its order, rigid parts included.\n"
-    "Without --out, --rest, --binding and --pose, nothing is written. `--rest` without a file "
-    "writes\n"
-    "the bind pose to --out in place of the frames.\n"
-    "Exit status: 0 done, 1 bad input, 2 bad usage.";
 
 /// Matches the placeholder of the frame number. A pattern is never passed to printf itself.
 const std::regex& numberPattern() {
@@ -80,8 +69,7 @@ std::pair<std::string, float> parseNamed(const std::string& option, const std::s
 
 /// Handles `--rest` without a file, which writes the bind pose to --out instead of the frames. The
 /// word after it may also be the character.
-void settleRest(const CLI::Option& rest, Arguments& arguments) {
-    if (rest.count() == 0) return;
+void settleRest(Arguments& arguments) {
     if (arguments.character.empty()) std::swap(arguments.character, arguments.rest);
     if (!arguments.rest.empty()) return;
     arguments.rest = arguments.out.empty() ? "rest.obj" : arguments.out;
@@ -149,54 +137,34 @@ std::string frameName(const std::string& pattern, std::size_t frame) {
     return numbered->before + number + numbered->after;
 }
 
-std::optional<Arguments> parseArguments(int argc, char** argv) {
-    CLI::App app("Writes a character's skin, posed by its motion, as meshes.", "osgskinbake");
-    app.set_version_flag("--version", example::versionText("osgskinbake"));
-    app.footer(kFooter);
+Arguments parseArguments(example::CommandLine& line, int argc, const char* const* argv) {
     Arguments arguments;
     std::string frames;
     std::vector<std::string> tensed, morphs;
-    app.add_option("CHARACTER", arguments.character, "a .skin file, or a rigged model");
-    app.add_option("--motion", arguments.motion, "a motion's name; the first one by default");
-    app.add_option("--frames", frames, "A, A:B or A:B:STEP; all by default");
-    app.add_option("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
-        ->check(CLI::Range(1e-3, 1e6));
-    example::addCharacterOptions(app, arguments.options);
-    app.add_option("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames")
-        ->allow_extra_args(false);
-    app.add_option("--morph", morphs, "NAME=W: gives a morph target the weight W in all frames")
-        ->allow_extra_args(false);
-    app.add_option("--out", arguments.out,
-                   "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
-    CLI::Option* rest =
-        app.add_option("--rest", arguments.rest, "write the bind pose")->expected(0, 1);
-    app.add_option("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
-    app.add_option("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
-    app.add_option("--formats", arguments.formats,
-                   "what may be read, as skin,obj,osgb, or all; by default no .osgb, .osgt, .osgx, "
-                   ".osg or .ive file that a .skin file names");
-    app.add_flag("--quiet", arguments.quiet, "no progress and no summary");
-    const std::string wrong = example::findEmptyWord(argc, argv);
-    if (!wrong.empty()) throw UsageError{wrong};
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::cout << app.help();
-        return std::nullopt;
-    } catch (const CLI::CallForVersion& version) {
-        std::cout << version.what() << std::endl;
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw UsageError{error.what() + example::suggestOption(app)};
-    }
-    if (arguments.rate && !std::isfinite(*arguments.rate)) // CLI::Range accepts NaN
-        throw UsageError{"--rate: expected a number from 0.001 to 1000000"};
+    line.add("CHARACTER", arguments.character, "a .skin file, or a rigged model");
+    line.add("--motion", arguments.motion, "a motion's name; the first one by default");
+    line.add("--frames", frames, "A, A:B or A:B:STEP; all by default");
+    line.add("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
+        .range(1e-3, 1e6);
+    example::addCharacterOptions(line, arguments.options);
+    line.add("--tense", tensed, "NAME=A: tenses a muscle by A, 0 to 1, in all frames");
+    line.add("--morph", morphs, "NAME=W: gives a morph target the weight W in all frames");
+    line.add("--out", arguments.out,
+             "the frames' files, like frame_%04d.obj or .ply; or one for all: .pc2, .glb");
+    const auto rest = line.add("--rest", arguments.rest, "write the bind pose").valueOptional();
+    line.add("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
+    line.add("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
+    line.add("--formats", arguments.formats,
+             "what may be read, as skin,obj,osgb, or all; by default no .osgb, .osgt, .osgx, .osg "
+             "or .ive file that a .skin file names");
+    line.add("--quiet", arguments.quiet, "no progress and no summary");
+    line.parse(argc, argv);
     if (!frames.empty()) arguments.frames = example::FrameRange::parse(frames);
     for (const std::string& word : tensed)
         arguments.activations.push_back(parseNamed("--tense", word));
     for (const std::string& word : morphs) arguments.morphs.push_back(parseNamed("--morph", word));
     checkPattern(arguments.out);
-    settleRest(*rest, arguments);
+    if (rest.isGiven()) settleRest(arguments);
     if (arguments.character.empty())
         throw UsageError{"expected a CHARACTER, a .skin file or a rigged model"};
     const std::string kind = extensionOf(arguments.rest);

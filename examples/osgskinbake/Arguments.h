@@ -33,9 +33,9 @@ struct Arguments {
 
 using example::UsageError;
 
-/// Reads the command line. Returns nothing if the user asked for the help, after printing it.
+/// Defines the arguments in `line` and reads them.
 /// \throw UsageError for bad usage
-std::optional<Arguments> parseArguments(int argc, char** argv);
+Arguments parseArguments(example::CommandLine& line, int argc, const char* const* argv);
 
 /// The file name of one frame: `pattern` with its %d (or %04d) replaced.
 std::string frameName(const std::string& pattern, std::size_t frame);

@@ -216,6 +216,15 @@ using bake::SampledMotion;
 using bake::UsageError;
 using osgSkin::Character;
 
+const char kFooter[] =
+    "Frames are the motion file's own samples, counted from 0 after `skipFrames`; the last one of "
+    "a\n"
+    "range is included. A pose is that sample, not a blend. Meshes have the input mesh's own\n"
+    "vertices and faces, in its order, rigid parts included.\n"
+    "Without --out, --rest, --binding and --pose, nothing is written. `--rest` without a file "
+    "writes\n"
+    "the bind pose to --out in place of the frames.";
+
 SampledMotion chooseMotion(Character& character, const Arguments& arguments) {
     const std::vector<SampledMotion> motions =
         bake::sampledMotions(character, arguments.rate.value_or(30.0));
@@ -402,16 +411,11 @@ int run(const Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        const auto arguments = bake::parseArguments(argc, argv);
+    example::CommandLine line(
+        "osgskinbake", "Writes a character's skin, posed by its motion, as meshes.", kFooter);
+    return line.run(argc, argv, [&] {
+        const Arguments arguments = bake::parseArguments(line, argc, argv);
         bake::removeUnfinishedOnSignals();
-        return arguments ? run(*arguments) : 0;
-    } catch (const UsageError& error) {
-        std::cerr << "osgskinbake: " << osgSkin::onOneLine(error.what())
-                  << "\nTry osgskinbake --help." << std::endl;
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "osgskinbake: " << error.what() << std::endl;
-        return 1;
-    }
+        return run(arguments);
+    });
 }

@@ -14,8 +14,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -89,44 +87,41 @@ int runOnCard(const std::vector<std::string>& files, std::size_t count, const Pi
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Many characters, each in its own phase of its own clip.", "osgskincrowd");
-    app.set_version_flag("--version", example::versionText("osgskincrowd"));
-    app.footer("Characters are loaded with -O \"shapes=none normals=rotated\" unless -O says "
-               "otherwise: more\nis not visible at a crowd's distance.\n" +
-               std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    example::CommandLine line(
+        "osgskincrowd", "Many characters, each in its own phase of its own clip.",
+        "Characters are loaded with -O \"shapes=none normals=rotated\" unless -O says "
+        "otherwise: more\nis not visible at a crowd's distance.\n" +
+            std::string(example::kWindowHelp));
     std::vector<std::string> files = {example::dataFolder() + "/thrower.skin"};
     std::string out, frames = "0:11";
     std::size_t count = 1000;
     unsigned int threads = 0;
     unsigned int timed = 0;
     bool gpu = false;
-    app.add_option("CHARACTER", files, ".skin or any file with a deformable skin; they take turns");
-    app.add_option("--count", count, "how many characters")->check(CLI::Range(1, 100000));
-    app.add_option("--threads", threads, "most threads that pose and deform; 0: all processors");
-    CLI::Option* const onCard = app.add_flag(
+    line.add("CHARACTER", files, ".skin or any file with a deformable skin; they take turns");
+    line.add("--count", count, "how many characters").range(1, 100000);
+    line.add("--threads", threads, "most threads that pose and deform; 0: all processors");
+    const auto onCard = line.add(
         "--gpu", gpu, "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
-    CLI::Option* const toFolder = app.add_option(
-        "--out", out, "write crowd_00.png, ... to this folder; no window to look at");
-    app.add_option("--frames", frames, "frames to write, 60 a second: A, A:B or A:B:STEP")
-        ->capture_default_str()
-        ->needs(toFolder);
-    app.add_option("--time", timed, "time so many frames without drawing; no window")
-        ->check(CLI::Range(1u, 10000u))
-        ->excludes(onCard)
-        ->excludes(toFolder);
-    if (!example::hasNoEmptyWord("osgskincrowd", argc, argv)) return 2;
-    try {
+    const auto toFolder =
+        line.add("--out", out, "write crowd_00.png, ... to this folder; no window to look at");
+    line.add("--frames", frames, "frames to write, 60 a second: A, A:B or A:B:STEP")
+        .showDefault()
+        .needs(toFolder);
+    line.add("--time", timed, "time so many frames without drawing; no window")
+        .range(1, 10000)
+        .excludes(onCard)
+        .excludes(toFolder);
+    return line.run(argc, argv, [&] {
         osg::ArgumentParser words(&argc, argv);
         const example::WindowOptions window(words, 1000, 800);
         osgViewer::Viewer viewer(words);
-        app.parse(argc, argv);
+        line.parse(argc, argv);
         const Pictures pictures{out, example::FrameRange::parse(frames)};
         if (!example::hasOsgOptionString())
             osgDB::Registry::instance()->setOptions(
                 new osgDB::Options("shapes=none normals=rotated"));
-        if (gpu)
-            return example::finish("osgskincrowd",
-                                   runOnCard(files, count, pictures, viewer, window));
+        if (gpu) return runOnCard(files, count, pictures, viewer, window);
         std::vector<CrowdCharacter> characters;
         characters.reserve(files.size());
         for (const std::string& file : files) characters.emplace_back(file);
@@ -136,7 +131,7 @@ int main(int argc, char** argv) {
                   << pool->getThreadCount() << " threads" << std::endl;
         if (timed > 0) {
             benchFrames(*crowd, crowd->getScene(), timed, pool->getThreadCount());
-            return example::finish("osgskincrowd", 0);
+            return 0;
         }
         const osg::ref_ptr<osg::Group> scene = new osg::Group;
         scene->addChild(crowd->getScene());
@@ -153,14 +148,6 @@ int main(int argc, char** argv) {
         const auto taken = static_cast<double>(pictures.frames.count());
         std::printf("%.0f frames in %s; in an update, poses took %.2f ms and skins %.2f ms\n",
                     taken, out.c_str(), pose / taken, deform / taken);
-        return example::finish("osgskincrowd", 0);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const example::UsageError& error) {
-        std::cerr << "osgskincrowd: " << error.what() << std::endl;
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "osgskincrowd: " << error.what() << std::endl;
-        return 1;
-    }
+        return 0;
+    });
 }

@@ -6,8 +6,6 @@
 
 #include <osgDB/FileUtils>
 
-#include <CLI/CLI.hpp>
-
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -38,28 +36,23 @@ void writeFigures(figures::Body& body, const figures::Body* elastic, const std::
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("The paper's figures, and osgSkin beside linear blending and dual quaternions, "
-                 "as pictures.",
-                 "osgskinfigures");
-    app.set_version_flag("--version", example::versionText("osgskinfigures"));
-    app.footer("Needs an X display; Xvfb will do. Exit status: 0 done, 1 failed, 2 bad usage.");
+    example::CommandLine line(
+        "osgskinfigures",
+        "The paper's figures, and osgSkin beside linear blending and dual quaternions, "
+        "as pictures.",
+        "Needs an X display; Xvfb will do.");
     std::string out;
     std::string file = example::dataFolder() + "/thrower.skin";
     std::string weights;
     bool elastic = false;
-    app.add_option("--out", out, "folder for the pictures, made if need be")->required();
-    app.add_option("--weights", weights,
-                   "painted weights (JSON) for the peers; without: from our ratios");
-    app.add_flag("--elastic", elastic,
-                 "a column with elastic shapes, too; solving them takes half a minute, once");
-    app.add_option("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
-    if (!example::hasNoEmptyWord("osgskinfigures", argc, argv)) return 2;
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
+    line.add("--out", out, "folder for the pictures, made if need be").required();
+    line.add("--weights", weights,
+             "painted weights (JSON) for the peers; without: from our ratios");
+    line.add("--elastic", elastic,
+             "a column with elastic shapes, too; solving them takes half a minute, once");
+    line.add("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
         osgSkin::LoadOptions options;
         options.shapes = osgSkin::BindOptions::Shapes::Fast;
         figures::Body body(file, weights, options);
@@ -67,9 +60,6 @@ int main(int argc, char** argv) {
         options.shapes = osgSkin::BindOptions::Shapes::Elastic;
         if (elastic) solid.emplace(file, weights, options);
         writeFigures(body, solid ? &*solid : nullptr, out, !weights.empty());
-        return example::finish("osgskinfigures", 0);
-    } catch (const std::exception& error) {
-        std::cerr << "osgskinfigures: " << error.what() << std::endl;
-        return 1;
-    }
+        return 0;
+    });
 }

@@ -12,8 +12,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cstddef>
 #include <exception>
@@ -49,26 +47,25 @@ int show(osg::Node* scene, osgViewer::Viewer& viewer, const example::WindowOptio
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("A figure throws a ball: a scene built from the public API.", "osgskinthrow");
-    app.set_version_flag("--version", example::versionText("osgskinthrow"));
-    app.footer(std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    example::CommandLine line("osgskinthrow",
+                              "A figure throws a ball: a scene built from the public API.",
+                              example::kWindowHelp);
     std::string data = example::dataFolder();
     std::string out;
     std::string frames;
-    app.add_option("--data", data, "folder of thrower.obj, thrower.bvh and throw.bvh");
-    CLI::Option* const toFolder = app.add_option(
-        "--out", out, "write throw_00.png, ... to this folder; no window to look at");
-    app.add_option("--frames", frames,
-                   "frames of the motion: A, A:B or A:B:STEP; every twelfth of it by default")
-        ->needs(toFolder);
-    if (!example::hasNoEmptyWord("osgskinthrow", argc, argv)) return 2;
-    try {
+    line.add("--data", data, "folder of thrower.obj, thrower.bvh and throw.bvh");
+    const auto toFolder =
+        line.add("--out", out, "write throw_00.png, ... to this folder; no window to look at");
+    line.add("--frames", frames,
+             "frames of the motion: A, A:B or A:B:STEP; every twelfth of it by default")
+        .needs(toFolder);
+    return line.run(argc, argv, [&] {
         osg::ArgumentParser words(&argc, argv);
         const example::WindowOptions window(words, 1000, 800);
         osgViewer::Viewer viewer(words);
         if (example::hasOsgOptionString())
             throw example::UsageError("-O: the files are not read by osgDB");
-        app.parse(argc, argv);
+        line.parse(argc, argv);
         std::optional<example::FrameRange> range;
         if (!frames.empty()) range = example::FrameRange::parse(frames);
         ThrowFacts facts;
@@ -82,14 +79,6 @@ int main(int argc, char** argv) {
         scene->addChild(example::makeFloor(8.0f));
         if (out.empty()) return show(scene, viewer, window);
         takePictures(scene, facts, *range, window, out);
-        return example::finish("osgskinthrow", 0);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const example::UsageError& error) {
-        std::cerr << "osgskinthrow: " << error.what() << std::endl;
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "osgskinthrow: " << error.what() << std::endl;
-        return 1;
-    }
+        return 0;
+    });
 }

@@ -129,22 +129,19 @@ int run(const Arguments& arguments, osgViewer::Viewer& viewer,
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("A cylinder that bends and twists: osgSkin beside linear blending and dual "
-                 "quaternions.",
-                 "osgskintwist");
-    app.set_version_flag("--version", example::versionText("osgskintwist"));
-    app.footer("Press h in the window for its keys. Frames are drawn SingleThreaded.\n" +
-               std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    example::CommandLine line(
+        "osgskintwist",
+        "A cylinder that bends and twists: osgSkin beside linear blending and dual "
+        "quaternions.",
+        "Press h in the window for its keys. Frames are drawn SingleThreaded.\n" +
+            std::string(example::kWindowHelp));
     Arguments arguments;
-    app.add_option("--bend", arguments.pose.bend, "degrees to start with")
-        ->check(CLI::Range(-150.0, 150.0));
-    app.add_option("--twist", arguments.pose.twist, "degrees to start with")
-        ->check(CLI::Range(-330.0, 330.0));
-    app.add_option("--out", arguments.out,
-                   "write pictures of a set of poses to this folder; no window to look at");
-    app.add_flag("--report", arguments.report, "print the methods' figures; needs no display");
-    if (!example::hasNoEmptyWord("osgskintwist", argc, argv)) return 2;
-    try {
+    line.add("--bend", arguments.pose.bend, "degrees to start with").range(-150.0, 150.0);
+    line.add("--twist", arguments.pose.twist, "degrees to start with").range(-330.0, 330.0);
+    line.add("--out", arguments.out,
+             "write pictures of a set of poses to this folder; no window to look at");
+    line.add("--report", arguments.report, "print the methods' figures; needs no display");
+    return line.run(argc, argv, [&] {
         osg::ArgumentParser words(&argc, argv);
         const example::WindowOptions window(words, kWidth, kHeight);
         osgViewer::Viewer viewer(words);
@@ -153,18 +150,7 @@ int main(int argc, char** argv) {
         if (viewer.getThreadingModel() != osgViewer::Viewer::AutomaticSelection &&
             viewer.getThreadingModel() != osgViewer::Viewer::SingleThreaded)
             throw example::UsageError("expected no threading model but --SingleThreaded");
-        app.parse(argc, argv);
-        if (!std::isfinite(arguments.pose.bend) ||
-            !std::isfinite(arguments.pose.twist)) // CLI::Range accepts NaN
-            throw example::UsageError("--bend and --twist: expected finite numbers");
-        return example::finish("osgskintwist", run(arguments, viewer, window));
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const example::UsageError& error) {
-        std::cerr << "osgskintwist: " << error.what() << std::endl;
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "osgskintwist: " << error.what() << std::endl;
-        return 1;
-    }
+        line.parse(argc, argv);
+        return run(arguments, viewer, window);
+    });
 }

@@ -16,8 +16,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <CLI/CLI.hpp>
-
 #include <cmath>
 #include <exception>
 #include <iostream>
@@ -72,34 +70,31 @@ constexpr double kLatest = 1e6; ///< seconds; frames are still distinct at this 
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Plays a character and shows how its skin is bound and deformed.",
-                 "osgskinviewer");
-    app.set_version_flag("--version", example::versionText("osgskinviewer"));
-    app.footer(std::string("Keys:\n") + viewer::keysHelp() + "\n\n" + example::kWindowHelp +
-               "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    example::CommandLine line(
+        "osgskinviewer", "Plays a character and shows how its skin is bound and deformed.",
+        std::string("Keys:\n") + viewer::keysHelp() + "\n\n" + example::kWindowHelp);
     std::string character = example::dataFolder() + "/thrower.skin";
     std::string weights, motion, joint, keys, out;
     osgSkin::LoadOptions options;
     double at = 0.0;
     bool paused = false, times = false;
-    app.add_option("CHARACTER", character,
-                   "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
-    app.add_option("--weights", weights,
-                   "painted weights (JSON) for the peers; without: from our ratios");
-    example::addCharacterOptions(app, options);
-    app.add_option("--motion", motion, "name of the motion to start with");
-    app.add_option("--joint", joint, "name of the joint whose ratios b and t show");
-    app.add_option("--at", at, "seconds into the motion to start at");
-    app.add_flag("--paused", paused, "start paused");
-    app.add_option("--keys", keys, "keys to press first; with --out, one before each picture");
-    CLI::Option* const toFolder =
-        app.add_option("--out", out,
-                       "write viewer_00.png, ... to this folder: no window to look at, but an X "
-                       "display (Xvfb will do)");
-    app.add_flag("--times", times, "with --out: say how long each frame and its skin took")
-        ->needs(toFolder);
-    if (!example::hasNoEmptyWord("osgskinviewer", argc, argv)) return 2;
-    try {
+    line.add("CHARACTER", character,
+             "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
+    line.add("--weights", weights,
+             "painted weights (JSON) for the peers; without: from our ratios");
+    example::addCharacterOptions(line, options);
+    line.add("--motion", motion, "name of the motion to start with");
+    line.add("--joint", joint, "name of the joint whose ratios b and t show");
+    line.add("--at", at, "seconds into the motion to start at");
+    line.add("--paused", paused, "start paused");
+    line.add("--keys", keys, "keys to press first; with --out, one before each picture");
+    const auto toFolder =
+        line.add("--out", out,
+                 "write viewer_00.png, ... to this folder: no window to look at, but an X "
+                 "display (Xvfb will do)");
+    line.add("--times", times, "with --out: say how long each frame and its skin took")
+        .needs(toFolder);
+    return line.run(argc, argv, [&] {
         osg::ArgumentParser words(&argc, argv);
         const example::WindowOptions place(words, 900, 800);
         StageViewer window(words);
@@ -108,7 +103,7 @@ int main(int argc, char** argv) {
         } catch (const osgSkin::Error& error) {
             throw example::UsageError(std::string("-O: ") + error.what());
         }
-        app.parse(argc, argv);
+        line.parse(argc, argv);
         if (!(std::abs(at) <= kLatest)) // also rejects NaN
             throw example::UsageError("--at: expected at most a million seconds");
         viewer::Stage stage(character, weights, options, place.width(), place.height());
@@ -118,19 +113,9 @@ int main(int argc, char** argv) {
         stage.clock.playing = !paused;
         if (!out.empty()) {
             takePictures(stage, keys, out, place, times);
-            return example::finish("osgskinviewer", 0);
+            return 0;
         }
         for (const char key : keys) viewer::press(stage, key);
         return show(stage, window, place);
-    } catch (const CLI::ParseError& error) {
-        const std::string meant = example::suggestOption(app);
-        if (!meant.empty()) std::cerr << "osgskinviewer: unknown option" << meant << std::endl;
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const example::UsageError& error) {
-        std::cerr << "osgskinviewer: " << error.what() << std::endl;
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "osgskinviewer: " << error.what() << std::endl;
-        return 1;
-    }
+    });
 }

@@ -9,8 +9,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -55,44 +53,33 @@ std::vector<Recipe> choose(const std::string& name) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Shows a recipe: a short program for a usual task.", "osgskinrecipes");
-    app.set_version_flag("--version", example::versionText("osgskinrecipes"));
-    app.footer(std::string(example::kWindowHelp) + "\nExit status: 0 done, 1 failed, 2 bad usage.");
+    example::CommandLine line("osgskinrecipes", "Shows a recipe: a short program for a usual task.",
+                              example::kWindowHelp);
     std::string name, file, out, data = example::dataFolder();
     bool list = false;
     std::string samples =
         (std::filesystem::temp_directory_path() / "osgskin-recipes").generic_string();
-    app.add_option("RECIPE", name, "the recipe; all with --out if none is named");
-    app.add_option("CHARACTER", file, "a character to show in place of the recipe's own");
-    app.add_flag("--list", list, "list the recipes");
-    app.add_option("--out", out, "write pictures to this folder; no window to look at");
-    app.add_option("--characters", samples, "folder for the characters that recipes show")
-        ->capture_default_str();
-    app.add_option("--data", data, "folder of the thrower, of whom they are made");
-    if (!example::hasNoEmptyWord("osgskinrecipes", argc, argv)) return 2;
-    try {
+    line.add("RECIPE", name, "the recipe; all with --out if none is named");
+    line.add("CHARACTER", file, "a character to show in place of the recipe's own");
+    line.add("--list", list, "list the recipes");
+    line.add("--out", out, "write pictures to this folder; no window to look at");
+    line.add("--characters", samples, "folder for the characters that recipes show").showDefault();
+    line.add("--data", data, "folder of the thrower, of whom they are made");
+    return line.run(argc, argv, [&] {
         osg::ArgumentParser words(&argc, argv);
         const example::WindowOptions window(words, 960, 720);
         osgViewer::Viewer viewer(words);
-        app.parse(argc, argv);
+        line.parse(argc, argv);
         const std::vector<Recipe> chosen = choose(name);
         if (list || (name.empty() && out.empty())) {
             for (const Recipe& recipe : chosen) std::cout << recipe.name << '\n';
-            return example::finish("osgskinrecipes", 0);
+            return 0;
         }
         if (file.empty() || !out.empty()) writeSamples(data, samples);
         if (out.empty())
             return show(chosen.front(), file.empty() ? samples + "/" + chosen.front().sample : file,
                         viewer, window);
         takePictures(chosen, samples, out);
-        return example::finish("osgskinrecipes", 0);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const example::UsageError& error) {
-        std::cerr << "osgskinrecipes: " << error.what() << std::endl;
-        return 2;
-    } catch (const std::exception& error) {
-        std::cerr << "osgskinrecipes: " << error.what() << std::endl;
-        return 1;
-    }
+        return 0;
+    });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // osgskin_gpu_bench: times compute shaders over a number of vertices, or whole frames.
+#include "CommandLine.h"
 #include "EglWindow.h"
 #include "FindNodes.h"
 #include "FrameBench.h"
@@ -270,30 +271,29 @@ int bench(const osgSkin::SkinModel& model, GLuint wanted, const Card& card) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app(
+    example::CommandLine line(
+        "osgskin_gpu_bench",
         "Times compute shaders over a number of vertices, in as many characters as needed, "
         "each in its own pose: our deformation, copying the same bytes, and linear blending "
-        "of four matrices. With --draw, times whole frames. Needs no display.",
-        "osgskin_gpu_bench");
+        "of four matrices. With --draw, times whole frames. Needs no display.");
     std::string file = std::string(OSGSKIN_DATA) + "/thrower.skin";
     GLuint wanted = 500000;
     bool frames = false;
     std::vector<std::size_t> crowds = {1000, 10000, 100000};
     std::size_t singles = 100;
-    app.add_option("character", file, "any file with a deformable skin")->capture_default_str();
-    app.add_option("vertices", wanted, "how many vertices to deform")->capture_default_str();
-    CLI::Option* const whole =
-        app.add_flag("--draw", frames, "draw whole frames of 1920 x 1080 pixels instead");
-    app.add_option("--crowd", crowds, "members of the crowds, one crowd after the other")
-        ->check(CLI::Range(1, 10000000))
-        ->needs(whole);
-    app.add_option(
-           "--single", singles,
-           "characters that are loaded one by one, drawn with and without the card; 0: none")
-        ->capture_default_str()
-        ->needs(whole);
-    CLI11_PARSE(app, argc, argv);
-    try {
+    line.add("character", file, "any file with a deformable skin").showDefault();
+    line.add("vertices", wanted, "how many vertices to deform").showDefault();
+    const auto whole =
+        line.add("--draw", frames, "draw whole frames of 1920 x 1080 pixels instead");
+    line.add("--crowd", crowds, "members of the crowds, one crowd after the other")
+        .range(1, 10000000)
+        .needs(whole);
+    line.add("--single", singles,
+             "characters that are loaded one by one, drawn with and without the card; 0: none")
+        .showDefault()
+        .needs(whole);
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
         if (frames) {
             benchFrames(file, crowds, singles);
             return 0;
@@ -307,8 +307,6 @@ int main(int argc, char** argv) {
         const int result = bench(*model, wanted, Card(window->getState()->getContextID()));
         window->releaseContext();
         return result;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "osgskin_gpu_bench: %s\n", error.what());
-        return 1;
-    }
+        return 0;
+    });
 }

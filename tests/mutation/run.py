@@ -71,7 +71,7 @@ def prepare(kits, tests):
     programs = sorted({test for kit in kits for test in KITS[kit]})
     wanted = kits if tests else [*kits, "osgdb_skin", "osgdb_serializers_osgskin", "osgskinbake",
                                         *(program.split()[0] for program in programs)]
-    if shell("cmake --preset release -DOSGSKIN_GENERATOR=OFF", TREE) or shell(
+    if shell("cmake --preset release -DOSGSKIN_UNITY=OFF", TREE) or shell(
             f"ninja -C build/release {' '.join(wanted)}", TREE):
         sys.exit("the copy does not build")
 

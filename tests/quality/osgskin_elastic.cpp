@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solves the joints of real bodies as elastic solids and prints how close the skins come to them.
+#include "CommandLine.h"
 #include "ElasticFigures.h"
-
-#include <CLI/CLI.hpp>
 
 #include <exception>
 #include <iostream>
@@ -20,19 +19,18 @@ SubjectFiles filesOf(const std::string& shape) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Elastic shapes of elbow, knee, shoulder and hip, and how far LBS, DQS, the "
-                 "plain skin and the one with shapes are from them");
+    example::CommandLine line(
+        "osgskin_elastic",
+        "Elastic shapes of elbow, knee, shoulder and hip, and how far LBS, DQS, the "
+        "plain skin and the one with shapes are from them");
     std::vector<std::string> bodies{"neutral", "male"};
     ElasticRun run;
-    app.add_option("--body", bodies, "of MakeHuman's: neutral, male");
-    app.add_option("--joint", run.joints, "joints by their names in the CMU rig");
-    app.add_option("--obj", run.folder, "a folder to write the posed skins to");
-    CLI11_PARSE(app, argc, argv);
-    try {
+    line.add("--body", bodies, "of MakeHuman's: neutral, male");
+    line.add("--joint", run.joints, "joints by their names in the CMU rig");
+    line.add("--obj", run.folder, "a folder to write the posed skins to");
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
         for (const std::string& body : bodies) measureElastic(loadSubject(filesOf(body)), run);
-    } catch (const std::exception& error) {
-        std::cerr << "osgskin_elastic: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

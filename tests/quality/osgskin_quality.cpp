@@ -7,8 +7,6 @@
 #include "RiggerFigures.h"
 #include "Subject.h"
 
-#include <CLI/CLI.hpp>
-
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -31,31 +29,30 @@ struct Options {
     std::string shapes;
 };
 
-void define(CLI::App& app, Options& options) {
-    app.add_option(
-        "--body", options.bodies,
-        "a body, as often as wanted: one of MakeHuman's by its shape, or a mesh file with "
-        "--rig and --weights; default: all six shapes");
-    auto* rig = app.add_option("--rig", options.rig, "the skeleton of the mesh file (BVH)");
-    auto* weights =
-        app.add_option("--weights", options.weights, "the painted weights of the mesh file (JSON)");
-    rig->needs(weights);
-    weights->needs(rig);
-    app.add_option("--heat", options.skins.heat, "its bone heat weights (JSON)")->needs(rig);
-    app.add_option("--motions", options.motions, "the folder of the CMU motions");
-    app.add_option("--bind", options.method, "how our ratios are found")
-        ->check(CLI::IsMember({"smooth", "paper", "weights"}))
-        ->capture_default_str();
-    auto* json = app.add_option("--json", options.json, "a file to write the figures to");
-    app.add_option("--shapes", options.shapes,
-                   "only what shapes do: limbs folded, and the clips, with and without them")
-        ->check(CLI::IsMember({"fast", "elastic"}))
-        ->excludes(json);
-    app.add_flag("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
-    app.add_flag("--rigger", options.rigger, "only what a rigger looks at first");
-    app.add_flag("--elastic", options.skins.elastic,
-                 "a rigger's figures with elastic shapes, too; takes minutes a body");
-    app.add_option("--cache", options.skins.cacheFolder, "a folder that keeps elastic shapes");
+void define(example::CommandLine& line, Options& options) {
+    line.add("--body", options.bodies,
+             "a body, as often as wanted: one of MakeHuman's by its shape, or a mesh file with "
+             "--rig and --weights; default: all six shapes");
+    auto rig = line.add("--rig", options.rig, "the skeleton of the mesh file (BVH)");
+    auto weights =
+        line.add("--weights", options.weights, "the painted weights of the mesh file (JSON)");
+    rig.needs(weights);
+    weights.needs(rig);
+    line.add("--heat", options.skins.heat, "its bone heat weights (JSON)").needs(rig);
+    line.add("--motions", options.motions, "the folder of the CMU motions");
+    line.add("--bind", options.method, "how our ratios are found")
+        .oneOf({"smooth", "paper", "weights"})
+        .showDefault();
+    const auto json = line.add("--json", options.json, "a file to write the figures to");
+    line.add("--shapes", options.shapes,
+             "only what shapes do: limbs folded, and the clips, with and without them")
+        .oneOf({"fast", "elastic"})
+        .excludes(json);
+    line.add("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
+    line.add("--rigger", options.rigger, "only what a rigger looks at first");
+    line.add("--elastic", options.skins.elastic,
+             "a rigger's figures with elastic shapes, too; takes minutes a body");
+    line.add("--cache", options.skins.cacheFolder, "a folder that keeps elastic shapes");
 }
 
 std::vector<SubjectFiles> subjects(const Options& options) {
@@ -148,21 +145,15 @@ void run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Measures deformed bodies: ours beside linear blending and dual quaternions with "
-                 "painted weights");
-    app.footer("Bars are reported, not enforced. Exit status: 0 done, 1 bad input, 2 bad usage.");
+    example::CommandLine line(
+        "osgskin_quality",
+        "Measures deformed bodies: ours beside linear blending and dual quaternions with "
+        "painted weights");
     Options options;
-    define(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
+    define(line, options);
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
         run(options);
-    } catch (const std::exception& error) {
-        std::cerr << "osgskin_quality: " << error.what() << '\n';
-        return 1;
-    }
-    return example::finish("osgskin_quality", 0);
+        return 0;
+    });
 }

@@ -107,27 +107,21 @@ void drawSheet(const std::string& shape, const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app(
+    example::CommandLine line(
+        "osgskin_sheet",
         "Draws bodies in 24 demanding poses, each by osgSkin (skin) and beside it by dual "
         "quaternions with painted weights (grey): FOLDER/sheet_SHAPE.png. Needs a display.");
     Options options;
-    app.add_option("--body", options.bodies, "one of MakeHuman's shapes, as often as wanted")
-        ->check(CLI::IsMember(kShapes));
-    app.add_option("--out", options.folder, "the folder of the pictures")->capture_default_str();
-    app.add_option("--shapes", options.shapes, "ours with these")
-        ->check(CLI::IsMember({"none", "fast", "elastic"}))
-        ->capture_default_str();
-    app.add_option("--cache", options.cacheFolder, "a folder that keeps elastic shapes");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
+    line.add("--body", options.bodies, "one of MakeHuman's shapes, as often as wanted")
+        .oneOf(kShapes);
+    line.add("--out", options.folder, "the folder of the pictures").showDefault();
+    line.add("--shapes", options.shapes, "ours with these")
+        .oneOf({"none", "fast", "elastic"})
+        .showDefault();
+    line.add("--cache", options.cacheFolder, "a folder that keeps elastic shapes");
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
         for (const std::string& shape : options.bodies) drawSheet(shape, options);
-    } catch (const std::exception& error) {
-        std::cerr << "osgskin_sheet: " << error.what() << '\n';
-        return 1;
-    }
-    return example::finish("osgskin_sheet", 0);
+        return 0;
+    });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Measures synthetic bodies derived from the available ones: does binding meet its limits on them?
+#include "CommandLine.h"
 #include "FoldFigures.h"
 #include "Report.h"
 #include "Subject.h"
@@ -470,18 +471,17 @@ struct Options {
     std::string shapes;
 };
 
-void define(CLI::App& app, Options& options) {
-    app.add_option("--motions", options.motions, "the folder of the CMU motions");
-    app.add_option("--only", options.only, "only variations with any of these in their names");
-    app.add_option("--half", options.half, "only one half of them")
-        ->check(CLI::IsMember({"both", "tuned", "held-out"}))
-        ->capture_default_str();
-    app.add_option("--worst", options.worst, "how many of a body's worst edges to list");
-    app.add_option(
-           "--shapes", options.shapes,
-           "only what shapes do: to pairs of triangles that cut each other, by pose, and to "
-           "edges and volumes over the clips")
-        ->check(CLI::IsMember({"fast", "elastic"}));
+void define(example::CommandLine& line, Options& options) {
+    line.add("--motions", options.motions, "the folder of the CMU motions");
+    line.add("--only", options.only, "only variations with any of these in their names");
+    line.add("--half", options.half, "only one half of them")
+        .oneOf({"both", "tuned", "held-out"})
+        .showDefault();
+    line.add("--worst", options.worst, "how many of a body's worst edges to list");
+    line.add("--shapes", options.shapes,
+             "only what shapes do: to pairs of triangles that cut each other, by pose, and to "
+             "edges and volumes over the clips")
+        .oneOf({"fast", "elastic"});
 }
 
 PaintedBody sharedBody(const std::string& shape) {
@@ -605,21 +605,15 @@ void run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Measures bodies made of the two shared ones, beside linear blending and dual "
-                 "quaternions with painted weights");
-    app.footer("Bars are reported, not enforced. Exit status: 0 done, 1 bad input, 2 bad usage.");
+    example::CommandLine line(
+        "osgskin_variations",
+        "Measures bodies made of the two shared ones, beside linear blending and dual "
+        "quaternions with painted weights");
     Options options;
-    define(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
+    define(line, options);
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
         options.shapes.empty() ? run(options) : runShapes(options);
-    } catch (const std::exception& error) {
-        std::cerr << "osgskin_variations: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

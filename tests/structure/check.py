@@ -11,7 +11,8 @@ own format; the other rules:
   - an internal header of a kit has two users or a test; with one user it belongs in that user's file
     (except for Highway's -inl.h parts of a kernel);
   - links and backquoted paths in Markdown exist; if a line of nodekits/README.md names a function(),
-    a file linked in that line has it; README.md shows the code that is compiled.
+    a file linked in that line has it; its picture of the kits has the arrows of rooms.txt; README.md
+    shows the code that is compiled.
 """
 import collections
 import fnmatch
@@ -236,6 +237,7 @@ def check_steps(house, page, text):
         row = re.search(rf"^\| \[?{kit}\b.*\| ([^|]*)\|$", text, re.M)
         if not row or re.findall(r"`([^`]+)`", row[1]) != rooms:
             house.breach(page, f"its table does not end {kit}'s row with the rooms of rooms.txt")
+    check_picture(house, page)
     for number, line in enumerate(text.splitlines(), 1):
         linked = re.findall(r"\]\(([^)#:\s]+)\)", line)
         files = [f for f in (page.parent / name for name in linked) if f.is_file()]
@@ -243,6 +245,22 @@ def check_steps(house, page, text):
             short = name.split("::")[-1]
             if not any(re.search(rf"\b{short}\s*\(", f.read_text()) for f in files):
                 house.breach(page, f"line {number}: no file linked in it has {name}()")
+
+
+def check_picture(house, page):
+    """Checks that the picture of the kits, lines "a <- b, c <- d", has the kits and arrows of rooms.txt."""
+    drawn = {kit: set() for kit in house.needs}  # kit -> kits that it needs, directly or not
+    picture = re.search(r"^```\n(.*?)^```", page.read_text(), re.M | re.S)
+    for line in picture[1].splitlines() if picture else []:
+        below = set()
+        for group in line.split(" <- "):
+            kits = {name.strip() for name in group.split(",")} & set(drawn)
+            for kit in kits:
+                drawn[kit] |= below
+            below |= kits
+    for kit, needs in house.needs.items():
+        if drawn[kit] != set(needs):
+            house.breach(page, f"its picture lets {kit} need {sorted(drawn[kit])}; rooms.txt: {sorted(needs)}")
 
 
 def check_shown(house, example, readme):

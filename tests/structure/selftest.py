@@ -9,7 +9,8 @@ import tempfile
 MIT = "// SPDX-License-Identifier: MIT\n"
 GPL = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
 
-ROWS = "| low | `ground`, `first` |\n| high | `only` |\n"
+PICTURE = "```\nlow <- high\n```\n"
+ROWS = PICTURE + "| low | `ground`, `first` |\n| high | `only` |\n"
 
 RECIPE = "# Recipes\n\n## A crowd\n![it](../pictures/recipes/makeCrowd.png)\n\n[makeCrowd.cpp](makeCrowd.cpp).\n"
 
@@ -47,6 +48,8 @@ SOUND = {
 
 # The change, and the start of the expected complaint.
 BROKEN = [
+    ({"nodekits/README.md": ROWS.replace("low <- high", "low, high")},
+     "nodekits/README.md: its picture lets high need []; rooms.txt: ['low']"),
     ({"nodekits/low/src/ground/Base.h": MIT + "#include <low/Up>\n"},
      "nodekits/low/src/ground/Base.h: includes <low/Up>: an arrow upward, ground -> first"),
     ({"nodekits/low/src/ground/Low.cpp": MIT + '#include "first/Late.h"\n'},
@@ -77,7 +80,7 @@ BROKEN = [
     ({"nodekits/README.md": ROWS.replace("`ground`", "`cellar`")},
      "nodekits/README.md: its table does not end low's row"),
     ({"nodekits/README.md": ROWS + "[the base](low/src/ground/Base.cpp): `S::g()`\n"},
-     "nodekits/README.md: line 3: no file linked in it has S::g()"),
+     "nodekits/README.md: line 4: no file linked in it has S::g()"),
     ({"examples/recipes/makeCrowd.cpp": MIT + "int crowd;\n" + "\n" * 39},
      "examples/recipes/makeCrowd.cpp: has 41 lines; at most 40"),
     ({"examples/recipes/README.md": "# Recipes\n"},

@@ -2,6 +2,7 @@
 // A crowd in two windows for many frames, in one of OSG's threading models: for ThreadSanitizer,
 // and for OSG's own stats, which show whether a frame's update overlaps the previous frame's draw.
 // Also for long runs, whose memory must not grow (tests/soak).
+#include "CommandLine.h"
 #include "MemorySlope.h"
 
 #include <osgSkin/DeformableSkin>
@@ -11,8 +12,6 @@
 #include <osg/Stats>
 #include <osgDB/ReadFile>
 #include <osgViewer/CompositeViewer>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -112,60 +111,65 @@ int main(int argc, char** argv) {
     int windows = 2, pixels = 300;
     bool gpu = false;
     double most = std::numeric_limits<double>::infinity();
-    CLI::App app("A crowd of a character's copies in windows for many frames.");
-    app.add_option("CHARACTER", file)->required();
-    app.add_option("MODEL", model, "threading model")->required()->check(CLI::IsMember(kModels));
-    app.add_option("CHARACTERS", count)->required()->check(CLI::Range(1, 10000));
-    app.add_option("FRAMES", frames)->required()->check(CLI::Range(10, 100000000));
-    app.add_option("--windows", windows)->check(CLI::Range(1, 10));
-    app.add_option("--pixels", pixels, "width and height of a window")->check(CLI::Range(1, 4000));
-    app.add_flag("--gpu", gpu, "deform by compute shaders");
-    app.add_option("--most", most, "fail where memory grows by more kB in 50 frames");
-    CLI11_PARSE(app, argc, argv);
+    example::CommandLine line("osgskin_stress",
+                              "A crowd of a character's copies in windows for many frames.");
+    line.add("CHARACTER", file).required();
+    std::vector<std::string> models;
+    for (const auto& [name, value] : kModels) models.push_back(name);
+    line.add("MODEL", model, "threading model").required().oneOf(models);
+    line.add("CHARACTERS", count).required().range(1, 10000);
+    line.add("FRAMES", frames).required().range(10, 100000000);
+    line.add("--windows", windows).range(1, 10);
+    line.add("--pixels", pixels, "width and height of a window").range(1, 4000);
+    line.add("--gpu", gpu, "deform by compute shaders");
+    line.add("--most", most, "fail where memory grows by more kB in 50 frames");
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
 
-    const osg::ref_ptr<osg::Node> character = osgDB::readRefNodeFile(file);
-    if (!character) return 1;
-    const osg::ref_ptr<osg::Group> crowd = makeCrowd(*character, count);
-    if (gpu) osgSkin::setGpu(*crowd, true);
+        const osg::ref_ptr<osg::Node> character = osgDB::readRefNodeFile(file);
+        if (!character) return 1;
+        const osg::ref_ptr<osg::Group> crowd = makeCrowd(*character, count);
+        if (gpu) osgSkin::setGpu(*crowd, true);
 
-    const unsigned int kept = std::min(frames, kStats) + 10;
-    osgViewer::CompositeViewer viewer;
-    viewer.setThreadingModel(kModels.at(model));
-    viewer.setViewerStats(new osg::Stats("viewer", kept));
-    viewer.getViewerStats()->collectStats("update", true);
-    for (int i = 0; i < windows; ++i) {
-        const osg::ref_ptr<osgViewer::View> view = makeView(crowd, i * pixels, pixels);
-        if (!view->getCamera()->getGraphicsContext()) return 1;
-        viewer.addView(view);
-        view->getCamera()->setStats(new osg::Stats("camera", kept));
-        view->getCamera()->getStats()->collectStats("rendering", true);
-    }
-    viewer.realize();
-    // Pauses and goes back now and then: repeats poses, also out of order.
-    double time = 0.0;
-    test::MemorySlope memory;
-    for (unsigned int frame = 0; frame < frames; ++frame) {
-        if (frame % 50 < 45) time += 1.0 / 60.0;
-        if (frame % 200 == 199) time -= 1.0;
-        viewer.frame(time);
-        if (frame % kCycle == kCycle - 1) memory.sample();
-        if (frame % kTold == kTold - 1)
-            std::cerr << "frame " << frame + 1 << " of " << frames << ": " << memory.last() / 1024.0
-                      << " MB" << std::endl;
-    }
-    viewer.stopThreading();
+        const unsigned int kept = std::min(frames, kStats) + 10;
+        osgViewer::CompositeViewer viewer;
+        viewer.setThreadingModel(kModels.at(model));
+        viewer.setViewerStats(new osg::Stats("viewer", kept));
+        viewer.getViewerStats()->collectStats("update", true);
+        for (int i = 0; i < windows; ++i) {
+            const osg::ref_ptr<osgViewer::View> view = makeView(crowd, i * pixels, pixels);
+            if (!view->getCamera()->getGraphicsContext()) return 1;
+            viewer.addView(view);
+            view->getCamera()->setStats(new osg::Stats("camera", kept));
+            view->getCamera()->getStats()->collectStats("rendering", true);
+        }
+        viewer.realize();
+        // Pauses and goes back now and then: repeats poses, also out of order.
+        double time = 0.0;
+        test::MemorySlope memory;
+        for (unsigned int frame = 0; frame < frames; ++frame) {
+            if (frame % 50 < 45) time += 1.0 / 60.0;
+            if (frame % 200 == 199) time -= 1.0;
+            viewer.frame(time);
+            if (frame % kCycle == kCycle - 1) memory.sample();
+            if (frame % kTold == kTold - 1)
+                std::cerr << "frame " << frame + 1 << " of " << frames << ": "
+                          << memory.last() / 1024.0 << " MB" << std::endl;
+        }
+        viewer.stopThreading();
 
-    Census census;
-    crowd->accept(census);
-    const unsigned int dispatches = osgSkin::gpuCounts().dispatches;
-    const unsigned int from = frames > kStats ? frames - kStats : 5;
-    std::cout << model << ": " << census.skins << " skins, " << frames << " frames, "
-              << census.deformed << " poses deformed, " << dispatches << " dispatches; in "
-              << overlaps(viewer, from, frames - 1) << " of the last " << frames - 1 - from
-              << " frames the update began before the draw of the frame before had ended; "
-              << memory.last() / 1024.0 << " MB in the end, " << memory.slope() << " kB in "
-              << kCycle << " frames" << std::endl;
-    const bool good = census.skins >= count && census.deformed <= census.skins * frames &&
-                      (gpu ? dispatches : census.deformed) > 0 && memory.slope() <= most;
-    return good ? 0 : 1;
+        Census census;
+        crowd->accept(census);
+        const unsigned int dispatches = osgSkin::gpuCounts().dispatches;
+        const unsigned int from = frames > kStats ? frames - kStats : 5;
+        std::cout << model << ": " << census.skins << " skins, " << frames << " frames, "
+                  << census.deformed << " poses deformed, " << dispatches << " dispatches; in "
+                  << overlaps(viewer, from, frames - 1) << " of the last " << frames - 1 - from
+                  << " frames the update began before the draw of the frame before had ended; "
+                  << memory.last() / 1024.0 << " MB in the end, " << memory.slope() << " kB in "
+                  << kCycle << " frames" << std::endl;
+        const bool good = census.skins >= count && census.deformed <= census.skins * frames &&
+                          (gpu ? dispatches : census.deformed) > 0 && memory.slope() <= most;
+        return good ? 0 : 1;
+    });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shows one character after the other, each in a window of its own that opens and closes, deformed
 // by the processor and by compute shaders: for long runs, whose memory must not grow (tests/soak).
+#include "CommandLine.h"
 #include "MemorySlope.h"
 
 #include <osgSkin/DeformableSkin>
@@ -10,8 +11,6 @@
 #include <osgDB/ReadFile>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
-
-#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <iostream>
@@ -48,25 +47,29 @@ bool show(const std::string& file, bool gpu) {
 int main(int argc, char** argv) {
     std::vector<std::string> files;
     double seconds = 0.0, most = std::numeric_limits<double>::infinity();
-    CLI::App app("Opens and closes windows, with one character after the other.");
-    app.add_option("CHARACTER", files, "anything that osgDB reads")->required();
-    app.add_option("--seconds", seconds, "how long; one round at least");
-    app.add_option("--most", most, "fail where memory grows by more kB in a round");
-    CLI11_PARSE(app, argc, argv);
+    example::CommandLine line("osgskin_windows",
+                              "Opens and closes windows, with one character after the other.");
+    line.add("CHARACTER", files, "anything that osgDB reads").required();
+    line.add("--seconds", seconds, "how long; one round at least");
+    line.add("--most", most, "fail where memory grows by more kB in a round");
+    return line.run(argc, argv, [&] {
+        line.parse(argc, argv);
 
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point begin = Clock::now();
-    test::MemorySlope memory;
-    unsigned int rounds = 0;
-    do {
-        for (const bool gpu : {false, true})
-            for (const std::string& file : files)
-                if (!show(file, gpu)) return 1;
-        memory.sample();
-        std::cerr << "round " << ++rounds << ": " << memory.last() / 1024.0 << " MB" << std::endl;
-    } while (std::chrono::duration<double>(Clock::now() - begin).count() < seconds);
-    std::cout << rounds << " rounds of " << 2 * files.size() << " windows; "
-              << memory.last() / 1024.0 << " MB in the end, " << memory.slope() << " kB a round"
-              << std::endl;
-    return memory.slope() > most ? 1 : 0;
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point begin = Clock::now();
+        test::MemorySlope memory;
+        unsigned int rounds = 0;
+        do {
+            for (const bool gpu : {false, true})
+                for (const std::string& file : files)
+                    if (!show(file, gpu)) return 1;
+            memory.sample();
+            std::cerr << "round " << ++rounds << ": " << memory.last() / 1024.0 << " MB"
+                      << std::endl;
+        } while (std::chrono::duration<double>(Clock::now() - begin).count() < seconds);
+        std::cout << rounds << " rounds of " << 2 * files.size() << " windows; "
+                  << memory.last() / 1024.0 << " MB in the end, " << memory.slope() << " kB a round"
+                  << std::endl;
+        return memory.slope() > most ? 1 : 0;
+    });
 }

@@ -13,11 +13,11 @@ namespace {
 
 /// Newton's method with bisection as a fallback; few steps are needed without it.
 constexpr int kMaxSteps = 100;
-constexpr double kTolerance = 1e-14;
+constexpr double kStepTolerance = 1e-14;
 
 /// A point whose distance to one plane is less than this share of the sum is on that plane. In a
 /// wide wedge the root grows without limit towards the plane.
-constexpr double kNothing = 1e-60;
+constexpr double kTinyShare = 1e-60;
 
 /// Largest default distance of a bend boundary from the joint, in bone lengths.
 constexpr double kBendShare = 0.3;
@@ -59,7 +59,7 @@ double root(const Cubic& cubic) {
         const double slope = cubic.slope(x);
         double next = slope > 0.0 ? x - value / slope : low;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
-        if (std::abs(next - x) <= kTolerance * (1.0 + x)) return next;
+        if (std::abs(next - x) <= kStepTolerance * (1.0 + x)) return next;
         x = next;
     }
     return x;
@@ -166,8 +166,8 @@ std::vector<Follows> followersOf(const std::vector<PlannedJoint>& joints, std::s
 
 double philoShare(double toUpper, double toLower, double angle) {
     const double sum = toUpper + toLower;
-    if (!(toUpper > kNothing * sum)) return 0.0;
-    if (!(toLower > kNothing * sum)) return 1.0;
+    if (!(toUpper > kTinyShare * sum)) return 0.0;
+    if (!(toLower > kTinyShare * sum)) return 1.0;
     const double sine = std::sin(angle), cosine = std::cos(angle);
     if (!(sine > 1e-9)) return toUpper / sum;
     const Cubic cubic{toUpper / sum, toLower / sum, sine, cosine};

@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t kLongestName = 4000; ///< of a material or a file; the rest is cut off
 constexpr std::size_t kMaxLibraries = 1000;
 constexpr std::size_t kMaxCorners = 255;       ///< per face
-constexpr std::size_t kSamplesOfMaterial = 20; ///< each takes two or three kilobytes
+constexpr std::size_t kSamplesOfObjMaterial = 20; ///< each takes two or three kilobytes
 
 // Lines and words of OBJ and MTL files.
 
@@ -354,7 +354,7 @@ private:
         });
         if (*std::max_element(_total.begin(), _total.end()) > 0x7fffffff)
             failFile(_path, "more vertices than 32-bit indices reach");
-        const std::size_t most = _limits.samplesOf(text.size()) / kSamplesOfMaterial;
+        const std::size_t most = _limits.samplesOf(text.size()) / kSamplesOfObjMaterial;
         if (materials.size() > most)
             failFile(_path, std::to_string(materials.size()) + " materials, expected at most " +
                                 std::to_string(most) + " (option maxSamples)");
