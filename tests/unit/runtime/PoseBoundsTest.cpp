@@ -10,6 +10,7 @@
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/DeformableSkin>
+#include <osgSkin/Error>
 #include <osgSkin/MorphTargets>
 #include <osgSkin/Pose>
 #include <osgSkin/PoseBounds>
@@ -247,4 +248,23 @@ TEST(PoseBounds, AreMadeOfManyJointsInSeconds) {
     constexpr double kMaxSeconds = 8.0;
 #endif
     EXPECT_LT(seconds, kMaxSeconds) << "of this program's own";
+}
+
+/// A small file could otherwise ask for much memory.
+TEST(PoseBounds, RefusesVertexThatFollowsManyBranches) {
+    test::Tube tube(2, 1);
+    osgSkin::BoundJoint joint = tube.binding.joints.front();
+    joint.parent = 0;
+    tube.binding.influences.clear();
+    tube.binding.firstInfluence = {0};
+    for (std::uint32_t j = 0; j < 100; ++j) {
+        joint.name = std::to_string(j);
+        if (j >= tube.binding.joints.size()) tube.binding.joints.push_back(joint);
+    }
+    for (std::size_t v = 0; v < tube.positions.size(); ++v) {
+        for (std::uint32_t j = 0; j < 100; ++j) tube.binding.influences.push_back({j, 1.0f, 1.0f});
+        tube.binding.firstInfluence.push_back(
+            static_cast<std::uint32_t>(tube.binding.influences.size()));
+    }
+    EXPECT_THROW(tube.model(), osgSkin::Error);
 }
