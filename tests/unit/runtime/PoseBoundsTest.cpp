@@ -205,8 +205,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, RandomPoseBounds, testing::ValuesIn(kMotions),
 
 TEST(PoseBounds, StayCloseToTheSkin) {
     const auto model = test::Tube(61, 24).model();
-    EXPECT_LE(checkRandomPoses(*model, {"Natural", 1.5, 1.0, 0.0}), 9.0);
-    EXPECT_LE(checkRandomPoses(*model, {"Scaled", 1.5, 1.2, 0.0}), 9.0);
+    EXPECT_LE(checkRandomPoses(*model, {"Natural", 1.5, 1.0, 0.0}), 2.2);
+    EXPECT_LE(checkRandomPoses(*model, {"Scaled", 1.5, 1.2, 0.0}), 2.2);
 }
 
 TEST(PoseBounds, RestPoseHasTheTightBox) {
