@@ -4,7 +4,7 @@
 #include "Blending.h"
 #include "ProgressLine.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
@@ -144,14 +144,10 @@ std::vector<glm::dvec3> Body::deform(Method method, const std::vector<glm::dmat4
     osgSkin::Pose pose(character.binding.joints, character.binding.correctives.inputs.size());
     for (std::size_t i = 0; i < character.binding.correctives.inputs.size(); ++i)
         pose.setInput(i, tension);
-    std::vector<glm::vec3> posed(rest().size());
-    osgSkin::DeformJob job;
-    job.model = method == Method::Plain ? _plain.get() : _model.get();
-    job.pose = &pose;
-    job.positions = posed.data();
-    job.positionCount = posed.size();
-    if (!pose.set(skinning.data(), skinning.size()) || !job.run())
+    if (!pose.set(skinning.data(), skinning.size()))
         throw std::runtime_error("a pose cannot be set");
+    const osgSkin::SkinModel& model = method == Method::Plain ? *_plain : *_model;
+    const std::vector<glm::vec3> posed = osgSkin::deform(model, pose).positions;
     return {posed.begin(), posed.end()};
 }
 

@@ -2,7 +2,7 @@
 #include "PosedMesh.h"
 
 #include <osgSkin/BoneReader>
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/GlmOsg>
 
 #include <glm/geometric.hpp>
@@ -51,15 +51,9 @@ public:
         if (source.empty()) return;
         const std::vector<glm::vec3> up(source.size(), glm::vec3(0.0f, 1.0f, 0.0f));
         const auto model = osgSkin::SkinModel::create(character.binding, rest, up, source);
-        const osgSkin::Pose pose = currentPose(character);
-        osgSkin::DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = rest.data();
-        job.positionCount = rest.size();
-        job.run();
+        const auto posed = osgSkin::deform(*model, currentPose(character)).positions;
         for (std::size_t i = 0; i < source.size(); ++i)
-            add(source[i], glm::dvec3(rest[i]), glm::dvec3(0.0, 1.0, 0.0));
+            add(source[i], glm::dvec3(posed[i]), glm::dvec3(0.0, 1.0, 0.0));
     }
 
     /// Adds vertices that no face uses, in the bind pose.

@@ -4,6 +4,7 @@
 #include "CharacterBench.h"
 
 #include "BenchBody.h"
+#include "CullFrame.h"
 
 #include <osgSkin/DeformJob>
 #include <osgSkin/DeformPool>
@@ -13,11 +14,8 @@
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
-#include <osg/Group>
 #include <osg/ref_ptr>
 #include <osgAnimation/BasicAnimationManager>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
 #include <ctime>
@@ -152,47 +150,18 @@ public:
                 _scene->addChild(animated(body, _rigs.back()->skeleton(), phase));
             }
         }
-        _update->setFrameStamp(_stamp);
-        _cull->setFrameStamp(_stamp);
-        for (int i = 0; i < 3; ++i) frame(); // these frames still allocate
+        _frame.warmUp();
     }
 
     void frame() {
-        _stamp->setFrameNumber(++_frame);
-        _stamp->setSimulationTime(_frame / 60.0);
-        _update->setTraversalNumber(_frame);
-        _scene->accept(*_update);
-        const osg::BoundingSphere bound = _scene->getBound();
-        const double r = 1.2 * static_cast<double>(bound.radius());
-        _graph->clean();
-        _stage->reset();
-        _cull->reset();
-        _cull->setTraversalNumber(_frame);
-        _cull->setStateGraph(_graph);
-        _cull->setRenderStage(_stage);
-        _cull->pushViewport(_viewport);
-        _cull->pushProjectionMatrix(
-            new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4 * r)));
-        const osg::Vec3d centre = bound.center();
-        const osg::ref_ptr<osg::RefMatrix> view = new osg::RefMatrix(osg::Matrix::lookAt(
-            centre + osg::Vec3d(0.0, 0.0, 2.0 * r), centre, osg::Vec3d(0.0, 1.0, 0.0)));
-        _cull->pushModelViewMatrix(view, osg::Transform::ABSOLUTE_RF);
-        _scene->accept(*_cull);
-        _cull->popModelViewMatrix();
-        _cull->popProjectionMatrix();
-        _cull->popViewport();
+        _frame.update();
+        _frame.cull();
     }
 
 private:
     osg::ref_ptr<osg::Group> _scene = new osg::Group;
     std::vector<std::unique_ptr<OsgRig>> _rigs;
-    osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
-    osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
-    osg::ref_ptr<osgUtil::CullVisitor> _cull = new osgUtil::CullVisitor;
-    osg::ref_ptr<osgUtil::StateGraph> _graph = new osgUtil::StateGraph;
-    osg::ref_ptr<osgUtil::RenderStage> _stage = new osgUtil::RenderStage;
-    osg::ref_ptr<osg::Viewport> _viewport = new osg::Viewport(0, 0, 1000, 800);
-    unsigned int _frame = 0;
+    CullFrame _frame{*_scene};
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 // The cost of one frame of a skin: ours, osgAnimation's software rig, and a plain copy, in one run.
 #include "BenchBody.h"
 #include "CharacterBench.h"
+#include "LoadBench.h"
 
 #include <osgSkin/DeformPool>
 #include <osgSkin/MorphedRest>
@@ -397,6 +398,8 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark("frame, osgAnimation/20", bench::characters,
                                  bench::Player::OsgAnimation, bench::Kind::Turned)
         ->Unit(benchmark::kMicrosecond);
+    bench::addLoads();
+    bench::addLoadedFrames();
     bench::RatioTable table;
     benchmark::RunSpecifiedBenchmarks(&table);
     return 0;

@@ -1,53 +1,84 @@
 // SPDX-License-Identifier: MIT
-//
-// Loading a saved character: processor time and memory. And its frames, with rigid parts as nodes
-// below bones and merged into the skin: update and cull traversals, deformation included; nothing
-// is drawn.
+#include "LoadBench.h"
+
+#include "CullFrame.h"
+
+#include <osgSkin/DeformPool>
 #include <osgSkin/DeformableSkin>
+#include <osgSkin/ParallelDeformCallback>
+#include <osgSkin/UpdatePlayedSkeleton>
 
 #include <benchmark/benchmark.h>
-#include <osg/FrameStamp>
-#include <osg/Group>
+#include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
-#include <osg/ref_ptr>
+#include <osgAnimation/BasicAnimationManager>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/UpdateVisitor>
 
-#include <malloc.h>
-
-#include <cstddef>
-#include <cstdlib>
+#include <chrono>
+#include <cmath>
+#include <ctime>
 #include <filesystem>
-#include <iostream>
+#include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <malloc.h>
+
+namespace bench {
+
 namespace {
 
-std::string saved, savedMerged; ///< the thrower as .osgb, and with rigid=merged
+const char* const kThrower = OSGSKIN_DATA "/thrower.skin";
 
-osg::ref_ptr<osg::Node> load(const std::string& file, osgDB::Options* options = nullptr) {
+osg::ref_ptr<osg::Node> load(const std::string& file, const std::string& words = "") {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
-    if (!node) {
-        std::cerr << "osgskin_load_bench: cannot read " << file
-                  << "; OSG_LIBRARY_PATH must name the plug-ins' folder\n";
-        std::exit(1);
-    }
+    if (!node)
+        throw std::runtime_error("cannot read " + file +
+                                 "; OSG_LIBRARY_PATH must name the plug-ins' folder");
     return node;
 }
 
+/// The thrower as .osgb, removed at the end.
+class SavedThrower {
+public:
+    explicit SavedThrower(const std::string& words)
+        : file((std::filesystem::temp_directory_path() /
+                ("osgskin-bench-" + std::to_string(std::random_device()()) + ".osgb"))
+                   .string()) {
+        osgDB::writeNodeFile(*load(kThrower, words), file);
+    }
+    ~SavedThrower() { std::filesystem::remove(file); }
+    SavedThrower(const SavedThrower&) = delete;
+    SavedThrower& operator=(const SavedThrower&) = delete;
+
+    const std::string file;
+};
+
+const std::string& saved() {
+    static const SavedThrower thrower("");
+    return thrower.file;
+}
+
+const std::string& savedMerged() {
+    static const SavedThrower thrower("rigid=merged");
+    return thrower.file;
+}
+
 /// Nothing of the file is alive; the plug-ins are loaded.
-void loadFirst(benchmark::State& state, const std::string& file) {
+void loadFirst(benchmark::State& state, bool isSaved) {
+    const std::string file = isSaved ? saved() : kThrower;
     load(file);
     for ([[maybe_unused]] auto iteration : state) load(file);
 }
 
 /// A character of the same file is alive.
 void loadAgain(benchmark::State& state) {
-    const osg::ref_ptr<osg::Node> first = load(saved);
-    for ([[maybe_unused]] auto iteration : state) load(saved);
+    const osg::ref_ptr<osg::Node> first = load(saved());
+    for ([[maybe_unused]] auto iteration : state) load(saved());
 }
 
 std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& scene) {
@@ -73,11 +104,11 @@ double allocated() {
 void memory(benchmark::State& state) {
     constexpr std::size_t kCharacters = 1000;
     for ([[maybe_unused]] auto iteration : state) {
-        const osg::ref_ptr<osg::Node> first = load(saved);
+        const osg::ref_ptr<osg::Node> first = load(saved());
         std::vector<osg::ref_ptr<osg::Referenced>> all;
         all.reserve(2 * kCharacters);
         const double before = allocated();
-        for (std::size_t i = 0; i < kCharacters; ++i) all.emplace_back(load(saved));
+        for (std::size_t i = 0; i < kCharacters; ++i) all.emplace_back(load(saved()));
         const double between = allocated();
         for (std::size_t i = 0; i < kCharacters; ++i)
             for (osgSkin::DeformableSkin* skin : skinsOf(*first))
@@ -89,103 +120,130 @@ void memory(benchmark::State& state) {
     }
 }
 
-/// A frame of a hundred characters that were loaded one by one.
-class Frames {
+/// How the characters are loaded and played.
+struct Mode {
+    bool bonesFollow = false;
+    unsigned int threads = 0; ///< of a ParallelDeformCallback; 0: none
+    bool sharesModel = false; ///< copies of one character in place of loads
+    bool merged = false;      ///< rigid parts merged into the skin
+};
+
+/// Characters that were loaded from one file, each in its own phase.
+class Scene {
 public:
-    explicit Frames(bool merged) {
-        for (int i = 0; i < 100; ++i) _scene->addChild(load(merged ? savedMerged : saved));
-        _update->setFrameStamp(_stamp);
-        _cull->setFrameStamp(_stamp);
-        for (int i = 0; i < 3; ++i) { // these frames still allocate
-            update();
-            cull();
+    Scene(std::size_t count, const Mode& mode) {
+        constexpr double kPhase = 0.37; // seconds from one to the next
+        osg::ref_ptr<osg::Node> first;
+        std::vector<osgAnimation::BasicAnimationManager*> managers;
+        const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(double(count))));
+        for (std::size_t i = 0; i < count; ++i) {
+            osg::ref_ptr<osg::Node> character;
+            if (first && mode.sharesModel)
+                character = osg::clone(first.get(), osg::CopyOp::DEEP_COPY_NODES |
+                                                        osg::CopyOp::DEEP_COPY_CALLBACKS |
+                                                        osg::CopyOp::DEEP_COPY_DRAWABLES);
+            else
+                character = load(mode.merged ? savedMerged() : saved());
+            if (!first) first = character;
+            const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
+                osg::Matrix::translate(2.0 * double(i % columns), 2.0 * double(i / columns), 0.0));
+            place->addChild(character);
+            _scene->addChild(place);
+            managers.push_back(
+                dynamic_cast<osgAnimation::BasicAnimationManager*>(character->getUpdateCallback()));
         }
+        if (mode.bonesFollow) osgSkin::setBonesFollow(*_scene, true);
+        if (mode.threads > 0)
+            _scene->setUpdateCallback(
+                new osgSkin::ParallelDeformCallback(new osgSkin::DeformPool(mode.threads)));
+        _skins = skinsOf(*_scene);
+        frame.update();
+        for (std::size_t i = 0; i < count; ++i)
+            managers[i]->getAnimationList().front()->setStartTime(-kPhase * double(i));
+        frame.warmUp();
     }
 
-    void update() {
-        _stamp->setFrameNumber(++_frame);
-        _stamp->setSimulationTime(_frame / 60.0);
-        _update->setTraversalNumber(_frame);
-        _scene->accept(*_update);
-        _bound = _scene->getBound();
+    double vertices() const {
+        double result = 0.0;
+        for (const osgSkin::DeformableSkin* skin : _skins)
+            result += double(skin->getModel()->vertexCount());
+        return result;
     }
-
-    void cull() {
-        const double r = 1.2 * static_cast<double>(_bound.radius());
-        _graph->clean();
-        _stage->reset();
-        _cull->reset();
-        _cull->setTraversalNumber(_frame);
-        _cull->setStateGraph(_graph);
-        _cull->setRenderStage(_stage);
-        _cull->pushViewport(_viewport);
-        _cull->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0, 4 * r)));
-        const osg::Vec3d centre = _bound.center();
-        _cull->pushModelViewMatrix(
-            new osg::RefMatrix(
-                osg::Matrix::lookAt(centre + osg::Vec3d(0, 0, 2 * r), centre, osg::Vec3d(0, 1, 0))),
-            osg::Transform::ABSOLUTE_RF);
-        _scene->accept(*_cull);
-        _cull->popModelViewMatrix();
-        _cull->popProjectionMatrix();
-        _cull->popViewport();
+    void deform() const {
+        for (osgSkin::DeformableSkin* skin : _skins) skin->getDeformedGeometry();
     }
 
 private:
     osg::ref_ptr<osg::Group> _scene = new osg::Group;
-    osg::BoundingSphere _bound;
-    osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
-    osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
-    osg::ref_ptr<osgUtil::CullVisitor> _cull = new osgUtil::CullVisitor;
-    osg::ref_ptr<osgUtil::StateGraph> _graph = new osgUtil::StateGraph;
-    osg::ref_ptr<osgUtil::RenderStage> _stage = new osgUtil::RenderStage;
-    osg::ref_ptr<osg::Viewport> _viewport = new osg::Viewport(0, 0, 1000, 800);
-    unsigned int _frame = 0;
+    std::vector<osgSkin::DeformableSkin*> _skins;
+
+public:
+    CullFrame frame{*_scene};
 };
 
-void updates(benchmark::State& state, bool merged) {
-    Frames frames(merged);
-    for ([[maybe_unused]] auto iteration : state) frames.update();
+/// Seconds of this thread's processor time, or of the clock where other threads work, too.
+double now(bool isThreaded) {
+    if (isThreaded)
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+            .count();
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-void culls(benchmark::State& state, bool merged) {
-    Frames frames(merged);
+void loadedFrames(benchmark::State& state, Mode mode, std::size_t count) {
+    Scene scene(count, mode);
+    double update = 0.0, deform = 0.0, cull = 0.0;
     for ([[maybe_unused]] auto iteration : state) {
-        state.PauseTiming();
-        frames.update();
-        state.ResumeTiming();
-        frames.cull();
+        const double start = now(mode.threads > 0);
+        scene.frame.update();
+        const double updated = now(mode.threads > 0) - start;
+        scene.deform();
+        const double deformed = now(mode.threads > 0) - start;
+        scene.frame.cull();
+        const double culled = now(mode.threads > 0) - start;
+        update += updated;
+        deform += deformed - updated;
+        cull += culled - deformed;
+        state.SetIterationTime(culled);
     }
+    const double frames = 1e-6 * double(state.iterations()) * double(count);
+    state.counters["update us"] = update / frames;
+    state.counters["deform us"] = deform / frames;
+    state.counters["cull us"] = cull / frames;
+    if (mode.threads == 0) {
+        state.counters["update x"] = update / deform;
+        state.counters["cull x"] = cull / deform;
+    }
+    state.counters["vertices"] = scene.vertices();
 }
 
 } // namespace
 
-int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-    const std::string skin = OSGSKIN_DATA "/thrower.skin";
-    const std::filesystem::path folder = std::filesystem::temp_directory_path();
-    saved = (folder / "osgskin_load_bench.osgb").string();
-    savedMerged = (folder / "osgskin_load_bench_merged.osgb").string();
-    const osg::ref_ptr<osgDB::Options> merged = new osgDB::Options("rigid=merged");
-    if (!osgDB::writeNodeFile(*load(skin), saved) ||
-        !osgDB::writeNodeFile(*load(skin, merged), savedMerged))
-        return 1;
+void addLoads() {
     const auto add = [](const char* name, auto run, auto... more) {
-        return benchmark::RegisterBenchmark(name, run, more...)
-            ->Unit(benchmark::kMillisecond)
-            ->MeasureProcessCPUTime();
+        return benchmark::RegisterBenchmark(name, run, more...)->Unit(benchmark::kMillisecond);
     };
-    add("load/saved, first", loadFirst, saved);
+    add("load/saved, first", loadFirst, true);
     add("load/saved, again", loadAgain);
-    add("load/.skin", loadFirst, skin);
-    add("update of 100/parts below bones", updates, false);
-    add("update of 100/merged parts", updates, true);
-    add("cull of 100/parts below bones", culls, false);
-    add("cull of 100/merged parts", culls, true);
-    add("memory of 1000", memory)->Iterations(1);
-    benchmark::RunSpecifiedBenchmarks();
-    std::filesystem::remove(saved);
-    std::filesystem::remove(savedMerged);
-    return 0;
+    add("load/.skin", loadFirst, false);
+    add("load/memory of 1000", memory)->Iterations(1);
 }
+
+void addLoadedFrames() {
+    for (const std::size_t count : {20u, 100u, 1000u})
+        for (const auto& [name, mode] :
+             {std::pair("bones as needed", Mode{}),
+              {"bones follow", Mode{true}},
+              {"parts merged", Mode{false, 0, false, true}},
+              {"bones as needed, 2 threads", Mode{false, 2}},
+              {"copies, bones as needed", Mode{false, 0, true}},
+              {"copies, bones as needed, 2 threads", Mode{false, 2, true}}})
+            benchmark::RegisterBenchmark(
+                ("frame of loaded, " + std::string(name) + "/" + std::to_string(count)).c_str(),
+                loadedFrames, mode, count)
+                ->UseManualTime()
+                ->Unit(benchmark::kMillisecond);
+}
+
+} // namespace bench

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a file of one format (FuzzFormat.cpp), for every reader of that format. Errors are
+// Any bytes as a file of one format, for every reader of that format. Errors are
 // osgSkin::Error; any other exception ends the run.
 #include "Attempt.h"
-#include "FuzzFormat.h"
 #include "GlbParts.h"
 #include "InputFile.h"
 
@@ -12,6 +11,9 @@
 #include <osgSkinImport/ImportSkeleton>
 
 #include <osg/Notify>
+
+/// The extension of the files that a target reads (FuzzFormat.cpp).
+const char* fuzzExtension();
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     osg::setNotifyLevel(osg::ALWAYS);

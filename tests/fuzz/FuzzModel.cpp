@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Any words as a saved model (through SkinModel::create()), and any numbers as a rotation to split.
+#include "Attempt.h"
 #include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/BendTwist>
-#include <osgSkin/Error>
 
 #include <cstdlib>
 #include <cstring>
@@ -12,10 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::uint32_t> words(size / 4);
     if (!words.empty()) std::memcpy(words.data(), data, 4 * words.size());
     const osg::ref_ptr<osgSkin::SkinModel> model = new osgSkin::SkinModel;
-    try {
-        osgSkin::unpackSkinModel(words, *model);
-    } catch (const osgSkin::Error&) {
-    }
+    fuzz::attempt([&] { osgSkin::unpackSkinModel(words, *model); });
     double numbers[7] = {1, 0, 0, 0, 0, 1, 0};
     std::memcpy(numbers, data, std::min(size, sizeof numbers));
     osgSkin::BendTwist split;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as an option string.
-#include <osgSkin/Error>
+#include "Attempt.h"
+
 #include <osgSkinCharacter/OptionString>
 #include <osgSkinImport/ReadLimits>
 
@@ -9,13 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const osg::ref_ptr<osgDB::Options> options =
         new osgDB::Options(std::string(reinterpret_cast<const char*>(data), size));
-    try {
-        osgSkin::toLoadOptions(options);
-    } catch (const osgSkin::Error&) {
-    }
-    try {
-        osgSkin::ReadLimits::of(options);
-    } catch (const osgSkin::Error&) {
-    }
+    fuzz::attempt([&] { osgSkin::toLoadOptions(options); });
+    fuzz::attempt([&] { osgSkin::ReadLimits::of(options); });
     return 0;
 }

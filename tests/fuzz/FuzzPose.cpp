@@ -3,7 +3,7 @@
 // are finite.
 #include "Tube.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/PoseBounds>
 
 #include <glm/gtc/quaternion.hpp>
@@ -23,14 +23,9 @@ bool isFinite(const glm::vec3& v) {
 }
 
 void requireFinite(const osgSkin::SkinModel& model, const osgSkin::Pose& pose) {
-    static std::vector<glm::vec3> positions(model.vertexCount()), normals(model.vertexCount());
-    osgSkin::DeformJob job;
-    job.model = &model;
-    job.pose = &pose;
-    job.positions = positions.data();
-    job.normals = normals.data();
-    job.positionCount = job.normalCount = positions.size();
-    job.run();
+    osgSkin::DeformOptions options;
+    options.normals = true;
+    const auto [positions, normals, tangents] = osgSkin::deform(model, pose, options);
     const osgSkin::PoseBounds bounds = computePoseBounds(model, pose);
     if (!isFinite(bounds.low) || !isFinite(bounds.high)) std::abort();
     if (!std::all_of(positions.begin(), positions.end(), isFinite)) std::abort();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a `.skin` file beside a small body, skeleton, motion and weights, up to the
 // character.
+#include "Attempt.h"
 #include "InputFile.h"
 
-#include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
 
 #include <osg/Notify>
@@ -21,9 +21,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     osgSkin::LoadOptions options;
     // Elastic shapes take minutes to solve, which is no hang; they have tests of their own.
     options.shapes = osgSkin::BindOptions::Shapes::Fast;
-    try {
-        osgSkin::loadCharacter(fuzz::save("input.skin", data, size), options);
-    } catch (const osgSkin::Error&) {
-    }
+    fuzz::attempt([&] { osgSkin::loadCharacter(fuzz::save("input.skin", data, size), options); });
     return 0;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a file of painted weights for a body with two joints.
+#include "Attempt.h"
 #include "InputFile.h"
 
-#include <osgSkin/Error>
 #include <osgSkinCharacter/ReadWeights>
 
 #include <cmath>
@@ -15,14 +15,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         made.add("arm", 0, glm::dvec3(0.0, 0.0, 1.0));
         return made;
     }();
-    try {
+    fuzz::attempt([&] {
         const osgSkin::VertexWeights weights =
             osgSkin::readWeights(fuzz::save("weights.json", data, size), skeleton, kVertices);
         if (weights.size() != kVertices) std::abort();
         for (const auto& joints : weights)
             for (const auto& [joint, weight] : joints)
                 if (joint > 1 || !std::isfinite(weight) || weight < 0.0) std::abort();
-    } catch (const osgSkin::Error&) {
-    }
+    });
     return 0;
 }

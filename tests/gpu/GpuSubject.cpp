@@ -6,7 +6,7 @@
 #include "SomeMorphs.h"
 #include "TubeSkin.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/GlmOsg>
 
 #include <osg/NodeVisitor>
@@ -153,21 +153,15 @@ void Difference::take(const Difference& other) {
 
 /// In double precision, by the scalar reference on the CPU.
 std::vector<glm::vec3> referenceNormals(const osgSkin::DeformableSkin& skin) {
-    std::vector<glm::vec3> positions(skin.getModel()->vertexCount()), normals(positions.size());
-    osgSkin::DeformJob job;
-    job.model = skin.getModel();
-    job.pose = &skin.getPose();
+    osgSkin::DeformOptions options;
+    options.normals = options.reference = true;
     std::optional<osgSkin::MorphedRest> morphed;
     if (skin.isMorphed()) {
         morphed.emplace(skin.getModel(), skin.getMorphTargets());
         morphed->set(skin.getMorphWeights());
-        job.morphed = &*morphed;
+        options.morphed = &*morphed;
     }
-    job.positions = positions.data();
-    job.normals = normals.data();
-    job.positionCount = job.normalCount = positions.size();
-    job.runReference();
-    return normals;
+    return osgSkin::deform(*skin.getModel(), skin.getPose(), options).normals;
 }
 
 Difference difference(const osgSkin::DeformableSkin& skin, const GpuStage::Posed& computed) {

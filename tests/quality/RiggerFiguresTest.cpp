@@ -78,7 +78,7 @@ PaintedBody wrongAtTheFoot(std::uint32_t joint) {
     return body;
 }
 
-TEST(BodyPose, FlexesToAnAngleBetweenTheBones) {
+TEST(BodyPose, FlexSetsTheAngleBetweenTwoBones) {
     const RestSkeleton rig = limbs();
     for (const double flexion : {0.0, 30.0, 90.0, 140.0}) {
         const BodyPose pose = BodyPose(rig).flex("LeftForeArm", flexion).flex("LeftLeg", flexion);
@@ -90,7 +90,7 @@ TEST(BodyPose, FlexesToAnAngleBetweenTheBones) {
     EXPECT_NEAR(placed(rig, pose, "LeftFoot").z, -4.0, 1e-9);
 }
 
-TEST(BodyPose, AimsWhateverTheParentsDo) {
+TEST(BodyPose, AimIsIndependentOfParentRotations) {
     const RestSkeleton rig = limbs();
     BodyPose pose(rig);
     pose.rotate("Hips", {0, 1, 0}, 70.0).rotate("LeftArm", {1, 0, 0}, 20.0);
@@ -102,19 +102,19 @@ TEST(BodyPose, AimsWhateverTheParentsDo) {
     EXPECT_LT(glm::length(fore - glm::dvec3(0, 0, -2)), 1e-9);
 }
 
-TEST(BodyPose, PassesOverJointsThatTheRigHasNot) {
+TEST(BodyPose, IgnoresMissingJoints) {
     const RestSkeleton rig = limbs();
     const BodyPose pose = BodyPose(rig).rotate("Tail", {1, 0, 0}, 30.0).aim("RightArm", {0, 1, 0});
     for (const glm::dmat4& matrix : pose.skinning()) EXPECT_EQ(matrix, glm::dmat4(1.0));
 }
 
-TEST(DemandingPoses, AreTwentyFourOfDifferentNames) {
+TEST(DemandingPoses, HaveTwentyFourDifferentNames) {
     std::set<std::string> names;
     for (const DemandingPose& pose : demandingPoses(limbs())) names.insert(pose.pose.name);
     EXPECT_EQ(names.size(), 24u);
 }
 
-TEST(RiggerFigures, OfThePaintersOwnSkinAreNone) {
+TEST(RiggerFigures, AreZeroForThePaintedSkinItself) {
     const std::vector<MeasuredSkin> skins{
         {"LBS", makeSubject(leg(), Ratios::Painted), Method::Linear},
         {"DQS", makeSubject(leg(), Ratios::Painted), Method::DualQuaternion},
@@ -130,7 +130,7 @@ TEST(RiggerFigures, OfThePaintersOwnSkinAreNone) {
     }
 }
 
-TEST(RiggerFigures, CountVerticesOfTheWrongOwner) {
+TEST(RiggerFigures, CountVerticesThatFollowTheWrongJoint) {
     const RestSkeleton rig = limbs();
     const auto hips = static_cast<std::uint32_t>(rig.find("Hips"));
     const auto arm = static_cast<std::uint32_t>(rig.find("LeftArm"));
@@ -148,7 +148,7 @@ TEST(RiggerFigures, CountVerticesOfTheWrongOwner) {
     }
 }
 
-TEST(RiggerFigures, ArePrintedAndWritten) {
+TEST(RiggerFigures, ArePrintedAndSaved) {
     const std::vector<MeasuredSkin> skins{
         {"LBS", makeSubject(leg(), Ratios::Painted), Method::Linear}};
     const std::vector<RiggerFigures> figures = measureRigger(skins, {});

@@ -2,7 +2,7 @@
 #include "Subject.h"
 
 #include <osgSkin/BoneReader>
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkinBind/Bind>
 #include <osgSkinCharacter/ReadWeights>
 #include <osgSkinImport/ImportMesh>
@@ -194,19 +194,9 @@ namespace {
 
 PosedSkin deformOurs(const Subject& subject, const std::vector<glm::dmat4>& skinning,
                      bool withNormals) {
-    osgSkin::Pose pose(subject.binding.joints);
-    if (!pose.set(skinning.data(), skinning.size()))
-        throw std::runtime_error("a pose cannot be set: expected finite matrices, one a joint");
-    std::vector<glm::vec3> posed(subject.rest.size()), normals(withNormals ? posed.size() : 0);
-    osgSkin::DeformJob job;
-    job.model = subject.model.get();
-    job.pose = &pose;
-    job.positions = posed.data();
-    job.positionCount = posed.size();
-    job.normals = withNormals ? normals.data() : nullptr;
-    job.normalCount = normals.size();
-    job.validate();
-    job.run();
+    osgSkin::DeformOptions options;
+    options.normals = withNormals;
+    const auto [posed, normals, tangents] = osgSkin::deform(*subject.model, skinning, options);
     return {{posed.begin(), posed.end()}, {normals.begin(), normals.end()}};
 }
 

@@ -69,6 +69,32 @@ inline osg::ref_ptr<osgAnimation::Skeleton> makeBones() {
     return skeleton;
 }
 
+inline osgAnimation::Bone& middleOf(osgAnimation::Skeleton& skeleton) {
+    return static_cast<osgAnimation::Bone&>(*skeleton.getChild(0)->asGroup()->getChild(0));
+}
+
+/// Rotates the middle one of these bones about its joint; the end bone moves with it.
+inline void rotateMiddle(osgAnimation::Skeleton& skeleton, double angle,
+                         const osg::Vec3d& axis = osg::Vec3d(1, 0, 0)) {
+    osgAnimation::Bone& middle = middleOf(skeleton);
+    auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
+    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(angle, axis) *
+                                    osg::Matrix::translate(0, 2, 0));
+    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) *
+                                 middle.getMatrixInSkeletonSpace());
+}
+
+/// The angle by which the middle joint is bent.
+inline double bendOf(const osgSkin::DeformableSkin& skin) {
+    return skin.getPose().transform(1).split.bendAngle;
+}
+
+/// The vertices that would be drawn.
+inline std::vector<osg::Vec3> verticesOf(const osgSkin::DeformableSkin& skin) {
+    return static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray())
+        .asVector();
+}
+
 /// One cull traversal over `node` with everything in view (or nothing).
 inline void cull(osg::Node& node, bool inView) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;

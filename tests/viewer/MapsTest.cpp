@@ -166,7 +166,7 @@ const Lamp kAside{{1.0f, 0.5f, 1.0f, 0.0f}, kWhite, kBlack};
 
 } // namespace
 
-TEST(Maps, LightFallsOnTheNormalsOfTheMap) {
+TEST(Maps, NormalMapsChangeTheLighting) {
     osg::Vec3 toLight(kAside.position.x(), kAside.position.y(), kAside.position.z());
     toLight.normalize();
     for (const double scale : {1.0, 0.5}) {
@@ -187,7 +187,7 @@ TEST(Maps, LightFallsOnTheNormalsOfTheMap) {
     }
 }
 
-TEST(Maps, OcclusionDarkensAmbientLightAndEmissionNeedsNone) {
+TEST(Maps, OcclusionDarkensAmbientLightAndEmissionIsAdded) {
     const Colours shade{osg::Vec3(0.2f, 1, 1), osg::Vec3(0.4f, 1, 1), osg::Vec3(0.6f, 1, 1),
                         kWhite};
     const Colours glow{osg::Vec3(0.1f, 0, 0), osg::Vec3(0, 0.2f, 0), osg::Vec3(0, 0, 0.3f), kBlack};
@@ -210,7 +210,7 @@ TEST(Maps, OcclusionDarkensAmbientLightAndEmissionNeedsNone) {
 }
 
 /// Colours, highlights, lamps near by, textures, both sides, vertex colours, transparency.
-TEST(Maps, NeutralOnesAreThePictureOfTheFixedPipeline) {
+TEST(Maps, NeutralMapsMatchTheFixedPipeline) {
     struct Case {
         const char* name;
         json material;
@@ -255,7 +255,7 @@ TEST(Maps, NeutralOnesAreThePictureOfTheFixedPipeline) {
 }
 
 /// A skin whose joint rotates all of it, deformed by the processor, by the card, and saved.
-TEST(Maps, OfSkinsRotateWithThem) {
+TEST(Maps, NormalMapsRotateWithTheSkin) {
     Board board;
     board.map("normalTexture", kBumps);
     const double half = 0.5 * osg::DegreesToRadians(90.0);

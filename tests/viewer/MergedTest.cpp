@@ -34,7 +34,7 @@ std::vector<osg::ref_ptr<osg::Image>> pictures(const std::string& options) {
 
 } // namespace
 
-TEST(Merged, LooksLikeRigidPartsBelowBones) {
+TEST(Merged, LooksLikeSeparateRigidParts) {
     const auto expected = pictures("");
     for (const char* options : {"rigid=merged", "rigid=merged gpu=on", "gpu=on"}) {
         const auto are = pictures(options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Characters that a DatabasePager loads when the camera approaches and unloads when it leaves.
+#include "FindNodes.h"
 #include "Window.h"
 
 #include <osgSkin/DeformableSkin>
@@ -15,14 +16,6 @@
 #include <algorithm>
 
 namespace {
-
-osgSkin::DeformableSkin* skinIn(osg::Node& node) {
-    if (auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&node)) return skin;
-    if (osg::Group* group = node.asGroup())
-        for (unsigned int i = 0; i < group->getNumChildren(); ++i)
-            if (auto* skin = skinIn(*group->getChild(i))) return skin;
-    return nullptr;
-}
 
 class Pager : public testing::Test {
 protected:
@@ -63,7 +56,7 @@ protected:
 
 } // namespace
 
-TEST_F(Pager, LoadsAndDropsCharacters) {
+TEST_F(Pager, LoadsAndUnloadsCharacters) {
     test::Windows windows(scene, osg::Vec3d(0, -100, 1), osg::Vec3d(), 1,
                           osgViewer::ViewerBase::DrawThreadPerContext);
     windows.viewer.getView(0)->getDatabasePager()->setTargetMaximumNumberOfPageLOD(0);
@@ -72,12 +65,11 @@ TEST_F(Pager, LoadsAndDropsCharacters) {
         ASSERT_TRUE(drawUntil(windows, -10.0, [&] {
             return all([](const auto& lod) { return lod->getNumChildren() == 1; });
         })) << "not loaded";
-        osgSkin::DeformableSkin* skin = skinIn(*lods[1]);
-        ASSERT_NE(skin, nullptr);
+        const auto skins = test::findNodes<osgSkin::DeformableSkin>(*lods[1]);
+        ASSERT_FALSE(skins.empty());
+        const osgSkin::DeformableSkin* skin = skins.front().node;
         const unsigned int before = skin->getDeformCount();
-        for (int i = 0; i < 10; ++i) {
-            windows.frame(time += 0.02);
-        }
+        for (int i = 0; i < 10; ++i) windows.frame(time += 0.02);
         EXPECT_EQ(skin->getDeformCount(), before + 10);
         EXPECT_GT(skin->getModel()->vertexCount(), 1000u);
         ASSERT_TRUE(drawUntil(windows, -500.0, [&] {

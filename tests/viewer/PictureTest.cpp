@@ -113,7 +113,7 @@ TEST_P(Drawn, EveryFrameShowsItsPose) {
     }
 }
 
-TEST_P(Drawn, AfterCompilingResizingAndReleasing) {
+TEST_P(Drawn, ShowsItsPoseAfterCompileResizeAndRelease) {
     window->frame();
     skin->resizeGLObjectBuffers(4);
     test::bend(*skin, 0.5);
@@ -181,7 +181,7 @@ const osg::Vec3d kAbove(12, 22, 16);
 
 } // namespace
 
-TEST_P(Threaded, TwoContextsShowOnePose) {
+TEST_P(Threaded, TwoContextsShowTheSamePose) {
     const auto skin = test::makeSkin();
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(skin);
@@ -198,7 +198,7 @@ TEST_P(Threaded, TwoContextsShowOnePose) {
     EXPECT_EQ(skin->getDeformCount(), poses);
 }
 
-TEST_P(Threaded, ShadowAndColourShowOnePose) {
+TEST_P(Threaded, ShadowAndColourShowTheSamePose) {
     const auto skin = test::makeSkin();
     test::Windows windows(shadowed(skin), kAbove, osg::Vec3d(), 2, GetParam().model);
     const unsigned int poses = 8;

@@ -28,7 +28,7 @@ std::ostream& operator<<(std::ostream& out, const Recipe& recipe) {
     return out << recipe.name;
 }
 
-TEST_P(Recipes, LookAsOnTheirPage) {
+TEST_P(Recipes, MatchThePicturesOnTheirPage) {
     const osg::ref_ptr<osg::Image> expected =
         osgDB::readRefImageFile(kPictures + GetParam().name + ".png");
     ASSERT_TRUE(expected);
@@ -43,7 +43,7 @@ TEST_P(Recipes, LookAsOnTheirPage) {
 INSTANTIATE_TEST_SUITE_P(All, Recipes, testing::ValuesIn(recipes()),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST(RecipeSamples, AreTheCharactersThatTheRecipesNeed) {
+TEST(RecipeSamples, HaveTheClipsAndMorphsOfTheRecipes) {
     writeSamples(OSGSKIN_DATA, kSamples);
     const osgSkin::Character walker = osgSkin::loadCharacter(kSamples + "/walker.skin");
     ASSERT_EQ(walker.motions.size(), 2u);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Changes that applications make to a scene with a skin: several skins and parents, parts that are
 // removed while it runs, time that stops and goes back, masks and levels of detail, picking.
+#include "FindNodes.h"
 #include "TubeSkin.h"
 #include "UpdateAt.h"
 
@@ -20,54 +21,24 @@ namespace {
 using osgSkin::DeformableSkin;
 using Vertices = std::vector<osg::Vec3>;
 
-Vertices vertices(const DeformableSkin& skin) {
-    const auto& array =
-        static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray());
-    return {array.begin(), array.end()};
-}
-
-void collect(osg::Node& node, std::vector<DeformableSkin*>& skins) {
-    if (auto* skin = dynamic_cast<DeformableSkin*>(&node)) skins.push_back(skin);
-    if (osg::Group* group = node.asGroup())
-        for (unsigned int i = 0; i < group->getNumChildren(); ++i)
-            collect(*group->getChild(i), skins);
-}
-
 /// The thrower; `skin` is its skin.
 struct Thrower {
     osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(OSGSKIN_DATA "/thrower.skin");
     DeformableSkin* skin = nullptr;
 
     Thrower() {
-        std::vector<DeformableSkin*> skins;
-        if (scene) collect(*scene, skins);
-        if (!skins.empty()) skin = skins.front();
+        if (scene) skin = test::findNodes<DeformableSkin>(*scene).at(0).node;
     }
     Vertices at(double time) {
         test::updateAt(*scene, time);
-        return vertices(*skin);
+        return test::verticesOf(*skin);
     }
 };
-
-/// A skeleton whose middle bone is bent by `angle`.
-void bendBones(osgAnimation::Skeleton& skeleton, double angle) {
-    auto& root = static_cast<osgAnimation::Bone&>(*skeleton.getChild(0));
-    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
-    auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
-    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(angle, osg::Vec3d(1, 0, 0)) *
-                                    osg::Matrix::translate(0, 2, 0));
-    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) *
-                                 middle.getMatrixInSkeletonSpace());
-}
 
 osg::ref_ptr<DeformableSkin> makeFollower() {
     osg::ref_ptr<DeformableSkin> skin = test::makeSkin();
     skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
     return skin;
-}
-
-double bendOf(const DeformableSkin& skin) {
-    return skin.getPose().transform(1).split.bendAngle;
 }
 
 } // namespace
@@ -79,11 +50,11 @@ TEST(Scene, SeveralSkinsUnderOneSkeleton) {
         skins.push_back(makeFollower());
         skeleton->addChild(skins.back());
     }
-    bendBones(*skeleton, 0.7);
+    test::rotateMiddle(*skeleton, 0.7);
     test::updateAt(*skeleton, 0.0);
     test::cull(*skeleton, true);
     for (const auto& skin : skins) {
-        EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+        EXPECT_NEAR(test::bendOf(*skin), 0.7, 1e-9);
         EXPECT_EQ(skin->getDeformCount(), 1u);
     }
 }
@@ -97,10 +68,10 @@ TEST(Scene, OneSkinUnderSeveralParents) {
         place->addChild(skin);
         skeleton->addChild(place);
     }
-    bendBones(*skeleton, 0.7);
+    test::rotateMiddle(*skeleton, 0.7);
     test::updateAt(*skeleton, 0.0);
     test::cull(*skeleton, true);
-    EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+    EXPECT_NEAR(test::bendOf(*skin), 0.7, 1e-9);
     EXPECT_EQ(skin->getDeformCount(), 1u);
 }
 
@@ -110,7 +81,7 @@ TEST(Scene, SkeletonReplacedWhileRunning) {
     root->addChild(skeleton);
     const auto skin = makeFollower();
     skeleton->addChild(skin);
-    bendBones(*skeleton, 0.7);
+    test::rotateMiddle(*skeleton, 0.7);
     test::updateAt(*root, 0.0);
     skeleton->removeChild(skin);
     root->removeChild(skeleton);
@@ -118,14 +89,14 @@ TEST(Scene, SkeletonReplacedWhileRunning) {
     root->addChild(skin);
     test::updateAt(*root, 0.1); // no skeleton: the pose stays
     test::cull(*root, true);
-    EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+    EXPECT_NEAR(test::bendOf(*skin), 0.7, 1e-9);
     root->removeChild(skin);
     skeleton = test::makeBones();
     skeleton->addChild(skin);
     root->addChild(skeleton);
-    bendBones(*skeleton, 0.2);
+    test::rotateMiddle(*skeleton, 0.2);
     test::updateAt(*root, 0.2);
-    EXPECT_NEAR(bendOf(*skin), 0.2, 1e-9);
+    EXPECT_NEAR(test::bendOf(*skin), 0.2, 1e-9);
 }
 
 TEST(Scene, BonesRemovedWhileRunning) {
@@ -136,22 +107,22 @@ TEST(Scene, BonesRemovedWhileRunning) {
     skeleton->removeChild(skeleton->getChild(0)); // the bones; the callback keeps them alive
     test::updateAt(*skeleton, 0.1);
     test::cull(*skeleton, true);
-    EXPECT_NEAR(bendOf(*skin), 0.0, 1e-9);
+    EXPECT_NEAR(test::bendOf(*skin), 0.0, 1e-9);
 }
 
 TEST(Scene, CallbackRemovedAndSetAgain) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
     const auto skin = makeFollower();
     skeleton->addChild(skin);
-    bendBones(*skeleton, 0.7);
+    test::rotateMiddle(*skeleton, 0.7);
     test::updateAt(*skeleton, 0.0);
     skin->setUpdateCallback(nullptr);
-    bendBones(*skeleton, 0.3);
+    test::rotateMiddle(*skeleton, 0.3);
     test::updateAt(*skeleton, 0.1);
-    EXPECT_NEAR(bendOf(*skin), 0.7, 1e-9);
+    EXPECT_NEAR(test::bendOf(*skin), 0.7, 1e-9);
     skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
     test::updateAt(*skeleton, 0.2);
-    EXPECT_NEAR(bendOf(*skin), 0.3, 1e-9);
+    EXPECT_NEAR(test::bendOf(*skin), 0.3, 1e-9);
 }
 
 TEST(Scene, TimeMayStopAndGoBack) {
@@ -168,7 +139,7 @@ TEST(Scene, TimeMayStopAndGoBack) {
         EXPECT_EQ(about.at(times[i]), poses[i]) << times[i];
 }
 
-TEST(Scene, APauseCostsNoDeformation) {
+TEST(Scene, PausedCharactersAreNotDeformed) {
     Thrower thrower;
     ASSERT_NE(thrower.skin, nullptr);
     thrower.at(0.5);
@@ -193,7 +164,7 @@ TEST(Scene, MaskedSkinsAreNotDeformed) {
     EXPECT_EQ(skin->getDeformCount(), 1u);
 }
 
-TEST(Scene, OnlyTheLevelInUseIsDeformed) {
+TEST(Scene, OnlyTheVisibleLevelOfDetailIsDeformed) {
     const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
     const auto close = test::makeSkin();
     const auto distant = test::makeSkin();
@@ -205,7 +176,7 @@ TEST(Scene, OnlyTheLevelInUseIsDeformed) {
     EXPECT_EQ(distant->getDeformCount(), 1u);
 }
 
-TEST(Scene, OutOfViewFiguresAreNotDeformed) {
+TEST(Scene, CharactersOutOfViewAreNotDeformed) {
     Thrower thrower;
     ASSERT_NE(thrower.skin, nullptr);
     test::updateAt(*thrower.scene, 1.0);

@@ -4,7 +4,7 @@
 #include "TubeSkin.h"
 #include "UpdateAt.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/RigidPart>
 #include <osgSkin/SkinHit>
@@ -62,7 +62,7 @@ osg::Vec3d mixed(const SkinHit& hit, const std::vector<glm::vec3>& values) {
 
 /// Rest positions, moved as the scalar reference and the skinning matrices move them, are where the
 /// lines hit.
-TEST(SkinHit, LeadsToTheRestPositionOfAPosedCharacter) {
+TEST(SkinHit, ReturnsTheRestPositionOfAPosedCharacter) {
     for (const char* options : {"", "rigid=merged", "gpu=on", "bones=always"}) {
         const osg::ref_ptr<osgDB::Options> read = new osgDB::Options(options);
         const osg::ref_ptr<osg::Node> thrower =
@@ -97,14 +97,10 @@ TEST(SkinHit, LeadsToTheRestPositionOfAPosedCharacter) {
             if (hit->skin) {
                 ++skins;
                 const osgSkin::SkinModel& model = *hit->skin->getModel();
-                std::vector<glm::vec3> positions(model.vertexCount());
-                osgSkin::DeformJob job;
-                job.model = &model;
-                job.pose = &hit->skin->getPose();
-                job.positions = positions.data();
-                job.positionCount = positions.size();
-                ASSERT_TRUE(job.runReference());
-                expected = mixed(*hit, positions);
+                osgSkin::DeformOptions scalar;
+                scalar.reference = true;
+                expected =
+                    mixed(*hit, osgSkin::deform(model, hit->skin->getPose(), scalar).positions);
                 EXPECT_LT((mixed(*hit, model.positions()) - hit->rest).length() * unit,
                           1e-9 * size);
             } else {
@@ -131,7 +127,7 @@ TEST(SkinHit, LeadsToTheRestPositionOfAPosedCharacter) {
     }
 }
 
-TEST(SkinHit, NamesTheJointAndTheTriangle) {
+TEST(SkinHit, ReturnsTheJointAndTriangle) {
     const auto skin = test::makeSkin();
     test::bend(*skin, osg::PI_2); // beyond y = 2 the tube points along +z
     const auto joint = [&](const osg::Vec3d& point) {
@@ -153,7 +149,7 @@ TEST(SkinHit, NamesTheJointAndTheTriangle) {
     EXPECT_EQ(joint({0, 2.1, 3.7}), "end");
 }
 
-TEST(SkinHit, WorksForAPolytope) {
+TEST(SkinHit, AcceptsPolytopeIntersections) {
     const auto skin = test::makeSkin();
     test::bend(*skin, osg::PI_2);
     osg::Polytope box; // 0.2 wide about a point of the bent tube's side
@@ -174,7 +170,7 @@ TEST(SkinHit, WorksForAPolytope) {
 }
 
 /// Rigid meshes below a bone, with transforms between, and with OSG's tree for fast picking.
-TEST(SkinHit, FindsTheBoneOfWhatItCarries) {
+TEST(SkinHit, ReturnsTheBoneOfAttachedObjects) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = test::makeBones();
     auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
     auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
@@ -209,7 +205,7 @@ TEST(SkinHit, FindsTheBoneOfWhatItCarries) {
     }
 }
 
-TEST(SkinHit, IsNothingForOtherDrawables) {
+TEST(SkinHit, IsEmptyForOtherDrawables) {
     const osg::ref_ptr<osg::Geometry> wall = test::makeGeometry(test::Tube());
     EXPECT_FALSE(osgSkin::skinHit(firstHit(*wall, {5, 3, 0}, {0, 3, 0})).has_value());
     EXPECT_FALSE(osgSkin::skinHit(osgUtil::LineSegmentIntersector::Intersection()).has_value());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads, plays, saves and releases a character in a loop: for sanitizers, which find leaks and uses
 // after free, and for long runs, whose memory must not grow. No display needed.
+#include "FindNodes.h"
 #include "MemorySlope.h"
 
 #include <osgSkin/DeformableSkin>
@@ -45,12 +46,9 @@ void frame(osg::Node& scene, unsigned int number) {
 }
 
 unsigned int posesOf(osg::Node& node) {
-    if (const auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&node))
-        return skin->getDeformCount();
     unsigned int poses = 0;
-    if (osg::Group* group = node.asGroup())
-        for (unsigned int i = 0; i < group->getNumChildren(); ++i)
-            poses += posesOf(*group->getChild(i));
+    for (const auto& skin : test::findNodes<osgSkin::DeformableSkin>(node))
+        poses += skin.node->getDeformCount();
     return poses;
 }
 
@@ -79,7 +77,7 @@ int main(int argc, char** argv) {
         const osg::observer_ptr<osg::Node> seen = character;
         character = nullptr;
         if (seen.valid()) {
-            std::cerr << "cycle " << cycle << ": something still holds the character" << std::endl;
+            std::cerr << "cycle " << cycle << ": the character was not freed" << std::endl;
             return 1;
         }
         // Both sources alternately: its files, and the saved scene.

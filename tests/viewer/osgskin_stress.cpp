@@ -3,6 +3,7 @@
 // and for OSG's own stats, which show whether a frame's update overlaps the previous frame's draw.
 // Also for long runs, whose memory must not grow (tests/soak).
 #include "CommandLine.h"
+#include "FindNodes.h"
 #include "MemorySlope.h"
 
 #include <osgSkin/DeformableSkin>
@@ -26,7 +27,7 @@ using osgViewer::ViewerBase;
 /// Number of frames with stats; keeping them for all frames would look like a leak.
 constexpr unsigned int kStats = 500;
 /// Frames between a long run's progress lines.
-constexpr unsigned int kTold = 20000;
+constexpr unsigned int kProgress = 20000;
 
 /// Frames between memory samples.
 constexpr unsigned int kCycle = 50;
@@ -37,20 +38,6 @@ const std::map<std::string, ViewerBase::ThreadingModel> kModels = {
     {"DrawThreadPerContext", ViewerBase::DrawThreadPerContext},
     {"CullThreadPerCameraDrawThreadPerContext",
      ViewerBase::CullThreadPerCameraDrawThreadPerContext},
-};
-
-/// Counts skins and the poses that they have deformed.
-class Census : public osg::NodeVisitor {
-public:
-    unsigned int skins = 0, deformed = 0;
-
-    Census() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Drawable& drawable) override {
-        if (const auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) {
-            ++skins;
-            deformed += skin->getDeformCount();
-        }
-    }
 };
 
 /// `count` copies of `character` in rows, each with its own bones, skin and time.
@@ -152,24 +139,25 @@ int main(int argc, char** argv) {
             if (frame % 200 == 199) time -= 1.0;
             viewer.frame(time);
             if (frame % kCycle == kCycle - 1) memory.sample();
-            if (frame % kTold == kTold - 1)
+            if (frame % kProgress == kProgress - 1)
                 std::cerr << "frame " << frame + 1 << " of " << frames << ": "
                           << memory.last() / 1024.0 << " MB" << std::endl;
         }
         viewer.stopThreading();
 
-        Census census;
-        crowd->accept(census);
+        const auto skins = test::findNodes<osgSkin::DeformableSkin>(*crowd);
+        std::size_t deformed = 0;
+        for (const auto& skin : skins) deformed += skin.node->getDeformCount();
         const unsigned int dispatches = osgSkin::gpuCounts().dispatches;
         const unsigned int from = frames > kStats ? frames - kStats : 5;
-        std::cout << model << ": " << census.skins << " skins, " << frames << " frames, "
-                  << census.deformed << " poses deformed, " << dispatches << " dispatches; in "
+        std::cout << model << ": " << skins.size() << " skins, " << frames << " frames, "
+                  << deformed << " poses deformed, " << dispatches << " dispatches; in "
                   << overlaps(viewer, from, frames - 1) << " of the last " << frames - 1 - from
                   << " frames the update began before the draw of the frame before had ended; "
                   << memory.last() / 1024.0 << " MB in the end, " << memory.slope() << " kB in "
                   << kCycle << " frames" << std::endl;
-        const bool good = census.skins >= count && census.deformed <= census.skins * frames &&
-                          (gpu ? dispatches : census.deformed) > 0 && memory.slope() <= most;
+        const bool good = skins.size() >= count && deformed <= skins.size() * frames &&
+                          (gpu ? dispatches : deformed) > 0 && memory.slope() <= most;
         return good ? 0 : 1;
     });
 }

@@ -38,7 +38,7 @@ bool show(const std::string& file, bool gpu) {
         for (int frame = 0; frame < 20; ++frame) viewer.frame(frame / 30.0);
     }
     if (!seen.valid()) return true;
-    std::cerr << file << ": something still holds the character" << std::endl;
+    std::cerr << file << ": the character was not freed" << std::endl;
     return false;
 }
 

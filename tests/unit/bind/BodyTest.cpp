@@ -8,7 +8,7 @@
 #include "Shapes.h"
 #include "SharedBody.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
 #include <osgSkinBind/RigidJoints>
@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <ostream>
 #include <set>
 
@@ -198,17 +197,13 @@ TEST_P(CmuBody, RegionsAgreeWithPaintedWeights) {
 }
 
 TEST_P(CmuBody, WristTwistSpreadsOverTheForearm) {
-    std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-    std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not used
-    std::vector<std::uint32_t> source(rest.size());
-    std::iota(source.begin(), source.end(), 0u);
-    const auto model = SkinModel::create(binding, rest, normals, source);
-
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     const std::vector<std::uint32_t> corners = mesh.triangles();
     for (std::size_t i = 0; i < corners.size(); ++i)
         edges.insert(std::minmax(corners[i], corners[i - i % 3 + (i + 1) % 3]));
 
+    const std::vector<glm::dmat4> unmoved(binding.joints.size(), glm::dmat4(1.0));
+    const std::vector<glm::dvec3> rest = deform(binding, mesh.positions, unmoved); // rounded alike
     struct Limit {
         double degrees, strain;
     };
@@ -222,17 +217,7 @@ TEST_P(CmuBody, WristTwistSpreadsOverTheForearm) {
                               glm::rotate(glm::dmat4(1.0), glm::radians(limit.degrees),
                                           binding.joints[hand].twistAxis) *
                               glm::translate(glm::dmat4(1.0), -c);
-        Pose pose(binding.joints);
-        ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
-        std::vector<glm::vec3> posed(rest.size());
-        DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = posed.data();
-        job.positionCount = posed.size();
-        EXPECT_NO_THROW(job.validate());
-        ASSERT_TRUE(job.run());
-
+        const std::vector<glm::dvec3> posed = deform(binding, mesh.positions, skinning);
         double sum = 0.0, count = 0.0;
         for (const auto& [a, b] : edges) {
             const double strain =
@@ -272,10 +257,6 @@ protected:
         BindOptions options; // the ratios alone: pressing folds flat reduces the volume
         options.shapes = BindOptions::Shapes::None;
         binding = bind(mesh, skeleton, options);
-        std::vector<std::uint32_t> source(mesh.positions.size());
-        std::iota(source.begin(), source.end(), 0u);
-        model = SkinModel::create(binding, {mesh.positions.begin(), mesh.positions.end()},
-                                  std::vector<glm::vec3>(source.size(), {0, 1, 0}), source);
     }
 
     std::vector<glm::dvec3> turned(const glm::dvec3& axis, double degrees) const {
@@ -285,17 +266,7 @@ protected:
                                 glm::translate(unit, glm::dvec3(0, -4, 0));
         std::vector<glm::dmat4> skinning(binding.joints.size(), turn);
         skinning[0] = unit;
-        Pose pose(binding.joints);
-        EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-        std::vector<glm::vec3> posed(mesh.positions.size());
-        DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = posed.data();
-        job.positionCount = posed.size();
-        EXPECT_NO_THROW(job.validate());
-        EXPECT_TRUE(job.run());
-        return {posed.begin(), posed.end()};
+        return deform(binding, mesh.positions, skinning);
     }
 
     /// Smallest area of a ring over that at rest.
@@ -333,7 +304,6 @@ protected:
 
     SkinMesh mesh;
     Binding binding;
-    osg::ref_ptr<const SkinModel> model;
 };
 
 } // namespace

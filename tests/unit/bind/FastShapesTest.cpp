@@ -7,7 +7,7 @@
 #include "Shapes.h"
 #include "mesh/WeldedMesh.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
@@ -41,10 +41,6 @@ Binding bound(const SkinMesh& mesh, const RestSkeleton& skeleton, BindOptions::S
 std::vector<glm::dvec3> turned(const SkinMesh& mesh, const RestSkeleton& skeleton,
                                const Binding& binding, std::size_t joint, const glm::dvec3& axis,
                                double degrees) {
-    std::vector<std::uint32_t> source(mesh.positions.size());
-    std::iota(source.begin(), source.end(), 0u);
-    const auto model = SkinModel::create(binding, {mesh.positions.begin(), mesh.positions.end()},
-                                         std::vector<glm::vec3>(source.size(), {0, 1, 0}), source);
     const glm::dvec3& centre = binding.joints[joint].centre;
     const glm::dmat4 unit(1.0);
     const glm::dmat4 turn = glm::translate(unit, centre) *
@@ -53,16 +49,7 @@ std::vector<glm::dvec3> turned(const SkinMesh& mesh, const RestSkeleton& skeleto
     std::vector<glm::dmat4> skinning(binding.joints.size(), unit);
     for (std::size_t j = 0; j < skinning.size(); ++j)
         if (skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(joint))) skinning[j] = turn;
-    Pose pose(binding.joints);
-    EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-    std::vector<glm::vec3> posed(mesh.positions.size());
-    DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = posed.data();
-    job.positionCount = posed.size();
-    EXPECT_TRUE(job.run());
-    return {posed.begin(), posed.end()};
+    return deform(binding, mesh.positions, skinning);
 }
 
 /// Measures of a cylinder along y of radius 1 that is bent at y = 4.

@@ -4,15 +4,13 @@
 #include "SharedBody.h"
 #include "mesh/SurfaceQueries.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkinBind/Bind>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
-#include <stdexcept>
 
 using namespace osgSkin;
 
@@ -89,23 +87,8 @@ KnownBody KnownBody::posed(const std::map<std::string, glm::dquat>& turns) const
     }
     std::vector<glm::dmat4> skinning;
     for (const BoundJoint& joint : binding.joints) skinning.push_back(world.at(joint.name));
-    const std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-    const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not used
-    std::vector<std::uint32_t> source(rest.size());
-    std::iota(source.begin(), source.end(), 0u);
-    const auto model = SkinModel::create(binding, rest, normals, source);
-    Pose pose(binding.joints);
-    std::vector<glm::vec3> positions(rest.size());
-    DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = positions.data();
-    job.positionCount = positions.size();
-    if (!pose.set(skinning.data(), skinning.size()) || !job.run())
-        throw std::logic_error("the body cannot be posed");
-
     KnownBody result = *this;
-    std::copy(positions.begin(), positions.end(), result.mesh.positions.begin());
+    result.mesh.positions = deform(binding, mesh.positions, skinning);
     for (RestJoint& joint : result.truth.joints)
         joint.centre = glm::dvec3(world.at(joint.name) * glm::dvec4(joint.centre, 1.0));
     return result;

@@ -2,7 +2,7 @@
 // Muscles that swell with their joints' bends and with the application's activations.
 #include "KnownBody.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 #include <osgSkinRig/JointRoles>
@@ -70,14 +70,7 @@ public:
             const auto found = tensed.find(_model->inputs()[i]);
             EXPECT_TRUE(pose.setInput(i, found == tensed.end() ? 0.0f : found->second));
         }
-        std::vector<glm::vec3> result(body.mesh.positions.size());
-        DeformJob job;
-        job.model = _model.get();
-        job.pose = &pose;
-        job.positions = result.data();
-        job.positionCount = result.size();
-        EXPECT_TRUE(job.run());
-        return result;
+        return deform(*_model, pose).positions;
     }
 
     /// The length of the loop of skin that is around the limb above a joint at rest, at this

@@ -6,7 +6,7 @@
 #include "Shapes.h"
 #include "mesh/SkinSmoother.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 
@@ -321,16 +321,9 @@ NormalError errorOf(const SkinMesh& mesh, const Binding& binding, double degrees
     skinning[1] = glm::translate(glm::dmat4(1.0), centre);
     skinning[1] = glm::rotate(skinning[1], glm::radians(degrees), glm::dvec3(1, 0, 0));
     skinning[1] = glm::translate(skinning[1], -centre);
-    Pose pose(binding.joints);
-    EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-    std::vector<glm::vec3> posed(rest.size()), normals(rest.size());
-    DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = posed.data();
-    job.normals = normals.data();
-    job.positionCount = job.normalCount = posed.size();
-    EXPECT_TRUE(job.run());
+    DeformOptions options;
+    options.normals = true;
+    const auto [posed, normals, tangents] = deform(*model, skinning, options);
     const std::vector<glm::vec3> wanted = normalsOf(posed, mesh.triangles());
     std::vector<double> errors;
     for (std::size_t v = 0; v < rest.size(); ++v)

@@ -20,7 +20,7 @@
 #include "ratios/RatioFields.h"
 #include "regions/Regions.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/RigidJoints>
 
@@ -32,7 +32,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -484,7 +483,7 @@ protected:
     }
 
     /// The skin with the given joints rotated by degrees about x or z, parents first.
-    std::vector<glm::vec3>
+    std::vector<glm::dvec3>
     posed(const std::vector<std::pair<std::string, glm::dvec2>>& turns) const {
         std::vector<glm::dmat4> skinning(skeleton.joints.size(), glm::dmat4(1.0));
         for (std::size_t j = 1; j < skinning.size(); ++j) {
@@ -498,26 +497,11 @@ protected:
                                glm::translate(unit, -skeleton.joints[j].centre);
             }
         }
-        std::vector<std::uint32_t> source(mesh.positions.size());
-        std::iota(source.begin(), source.end(), 0u);
-        const std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-        const std::vector<glm::vec3> normals(rest.size(), glm::vec3(0, 1, 0)); // not used
-        const auto model = SkinModel::create(binding, rest, normals, source);
-        Pose pose(binding.joints);
-        EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-        std::vector<glm::vec3> result(rest.size());
-        DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = result.data();
-        job.positionCount = result.size();
-        EXPECT_NO_THROW(job.validate());
-        EXPECT_TRUE(job.run());
-        return result;
+        return deform(binding, mesh.positions, skinning);
     }
 
     /// Largest l'/l among edges that are not tiny.
-    double longestEdge(const std::vector<glm::vec3>& points) const {
+    double longestEdge(const std::vector<glm::dvec3>& points) const {
         const double least = 1e-3 * mesh.size();
         double longest = 0.0;
         std::size_t corner = 0;

@@ -225,7 +225,7 @@ osg::ref_ptr<osgAnimation::Skeleton> makeBones() {
 
 } // namespace
 
-TEST(Memory, AFurtherCharacterTakesTwoBuffersAndFourKibibytes) {
+TEST(Memory, EachFurtherCharacterTakesTwoBuffersAnd4KiB) {
     const osg::ref_ptr<osgSkin::DeformableSkin> first = makeCharacter();
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
     osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;

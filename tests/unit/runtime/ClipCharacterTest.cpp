@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: MIT
-//
-// Characters whose parts are copied, and skins whose bones are removed and added.
+// Characters whose parts are copied.
+#include "BentClip.h"
 #include "Notices.h"
-#include "PlayedFigure.h"
 
-#include <osgSkin/AutoPlayManager>
 #include <osgSkin/Error>
 #include <osgSkin/MorphTargets>
 #include <osgSkin/UpdateMorphs>
 #include <osgSkinRig/ClipCharacter>
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
 #include <osg/Geometry>
-#include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Switch>
-#include <osg/observer_ptr>
 #include <osgAnimation/Animation>
 #include <osgAnimation/Bone>
-#include <osgAnimation/Channel>
-#include <osgAnimation/LinkVisitor>
-#include <osgAnimation/Skeleton>
-#include <osgAnimation/StackedTranslateElement>
-#include <osgAnimation/Target>
-#include <osgAnimation/UpdateBone>
-#include <osgAnimation/UpdateMaterial>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
@@ -38,10 +26,11 @@
 using namespace played;
 
 using osgSkin::ClipPlayer;
+using osgSkin::DeformableSkin;
 using osgSkin::SampledClip;
 
 /// Such as a head with a face.
-TEST(ClipPlayer, RigidPartsThatMorphAreCopied) {
+TEST(ClipCharacter, CopiesMorphingRigidParts) {
     Character character(someClip(12, 0.8));
     const osg::ref_ptr<osgSkin::DeformableSkin> face =
         osg::clone(character.skin.get(), osg::CopyOp::SHALLOW_COPY);
@@ -118,7 +107,7 @@ osg::ref_ptr<osg::Geometry> makeBox() {
 } // namespace
 
 /// The cull of a copy's rigid part passes over what other transforms do.
-TEST(ClipPlayer, RigidPartsAreCulledAsOtherTransformsAre) {
+TEST(ClipCharacter, CullsRigidPartsLikeOtherTransforms) {
     Character character(someClip(12, 0.8));
     const osg::ref_ptr<osg::Geometry> first = makeBox(), second = makeBox();
     first->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
@@ -165,7 +154,7 @@ TEST(ClipPlayer, RigidPartsAreCulledAsOtherTransformsAre) {
     EXPECT_TRUE(Culled(*copy.node, away).drawn.empty());
 }
 
-TEST(ClipPlayer, SwordsThatHangOnBonesAreCopied) {
+TEST(ClipCharacter, CopiesObjectsAttachedToBones) {
     Character character(someClip(12, 0.8));
     const osg::ref_ptr<osg::Geometry> sword = makeBox();
     const osg::ref_ptr<osg::MatrixTransform> grip = new osg::MatrixTransform(
@@ -190,7 +179,7 @@ TEST(ClipPlayer, SwordsThatHangOnBonesAreCopied) {
     for (int i = 0; i < 16; ++i) EXPECT_NEAR(is.ptr()[i], expected.ptr()[i], 1e-5) << i;
 }
 
-TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
+TEST(ClipCharacter, FindsRigidPartsInGroups) {
     Character character(someClip(12, 0.8));
     osg::Group& bone = *character.rigid->getParent(0);
     const osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -215,7 +204,7 @@ TEST(ClipPlayer, RigidPartsMayStandInGroupsBelowTheirBones) {
     EXPECT_THROW(osgSkin::ClipCharacter::create(*character.scene), osgSkin::Error);
 }
 
-TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
+TEST(ClipCharacter, BakedBoundsContainTheSkinBetweenSamples) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     std::mt19937_64 random(17);
@@ -244,7 +233,7 @@ TEST(ClipPlayer, BakedBoundsHoldTheSkinBetweenSamples) {
     }
 }
 
-TEST(ClipCharacter, InstancesBeginAtRest) {
+TEST(ClipCharacter, InstancesStartInTheRestPose) {
     Character character(someClip(12, 0.8));
     const Vertices rest = verticesOf(character.skin->getRestGeometry());
     character.update(0.1);
@@ -254,7 +243,7 @@ TEST(ClipCharacter, InstancesBeginAtRest) {
     EXPECT_EQ(difference(verticesOf(skinOf(*copy.node)), rest), 0.0);
 }
 
-TEST(ClipCharacter, InstancesLookAsTheCharacterDoes) {
+TEST(ClipCharacter, InstancesKeepStateAndNodeMasks) {
     Character character(someClip(12, 0.8));
     osg::Group& upright = *character.scene->getChild(0)->asGroup();
     upright.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
@@ -277,52 +266,7 @@ TEST(ClipCharacter, InstancesLookAsTheCharacterDoes) {
     }
 }
 
-/// Neither keeps the other alive.
-TEST(SkinBones, ASkinMayStandBelowABone) {
-    osg::observer_ptr<osgSkin::DeformableSkin> skin;
-    {
-        Character character(someClip(12, 0.8));
-        character.skeleton->removeChild(character.skin);
-        Character::findBone(*character.skeleton, "middle")->addChild(character.skin);
-        character.update(0.1);
-        skin = character.skin;
-    }
-    EXPECT_FALSE(skin.valid());
-}
-
-TEST(SkinBones, AreLookedForAgainWhereOneIsMovedOut) {
-    Character character(someClip(12, 0.8));
-    const osg::ref_ptr<osgAnimation::Bone> old = Character::findBone(*character.skeleton, "middle");
-    const osg::ref_ptr<osg::Group> parent = old->getParent(0), elsewhere = new osg::Group;
-    const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("middle");
-    bone->setInvBindMatrixInSkeletonSpace(old->getInvBindMatrixInSkeletonSpace());
-    bone->setMatrixInSkeletonSpace(osg::Matrixd::translate(0, 50, 0));
-    character.update(0.1);
-    parent->addChild(bone);
-    parent->removeChild(old);
-    elsewhere->addChild(old);
-    character.update(0.2);
-    double highest = 0.0;
-    for (const osg::Vec3& p : verticesOf(*character.skin))
-        highest = std::max(highest, double(p.y()));
-    EXPECT_GT(highest, 40.0);
-}
-
-TEST(SkinBones, AreMissedOnce) {
-    Character character(someClip(12, 0.8)), other(someClip(12, 0.8));
-    for (Character* each : {&character, &other}) {
-        const osg::ref_ptr<osgAnimation::Bone> end = Character::findBone(*each->skeleton, "end");
-        end->getParent(0)->removeChild(end);
-    }
-    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> shared = new osgSkin::UpdateDeformableSkin;
-    const test::Notices notices;
-    for (int frame = 0; frame < 10; ++frame)
-        for (Character* each : {&character, &other})
-            EXPECT_TRUE(shared->pose(*each->skin, *each->skeleton));
-    EXPECT_EQ(notices.lines(), 1u) << notices.text();
-}
-
-TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
+TEST(ClipCharacter, BoundsContainBlendsOfBakedClips) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto slow = SampledClip::create(someClip(12, 0.3), character.rig);
@@ -348,188 +292,71 @@ TEST(ClipPlayer, BlendsBetweenBakedClipsAreBoundedToo) {
     }
 }
 
-namespace {
-
-/// A constant channel of three numbers.
-osgAnimation::Vec3LinearChannel* channelOf(const std::string& target, const std::string& name) {
-    auto* channel = new osgAnimation::Vec3LinearChannel;
-    channel->setTargetName(target);
-    channel->setName(name);
-    auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
-    keys->push_back(osgAnimation::Vec3Keyframe(0.0, osg::Vec3(1, 2, 3)));
-    return channel;
-}
-
-/// A named callback with its own position.
-template <class Update>
-Update* callbackOf(const std::string& name) {
-    auto* update = new Update;
-    update->setName(name);
-    update->getStackedTransforms().push_back(
-        new osgAnimation::StackedTranslateElement("translate", osg::Vec3()));
-    return update;
-}
-
-/// Links like other callbacks, and records that it did.
-class OwnUpdate : public osgAnimation::UpdateMatrixTransform {
-public:
-    int asked = 0;
-    int link(osgAnimation::Animation* animation) override {
-        ++asked;
-        return osgAnimation::AnimationUpdateCallback<osg::NodeCallback>::link(animation);
-    }
-    bool link(osgAnimation::Channel* channel) override {
-        return osgAnimation::UpdateMatrixTransform::link(channel);
-    }
-};
-
-/// Two clips that animate everything below, and targets elsewhere.
-osgAnimation::AnimationList clips() {
-    osgAnimation::AnimationList result = {new osgAnimation::Animation, new osgAnimation::Animation};
-    for (const auto& clip : result)
-        for (const char* name : {"a", "b", "c", "elsewhere"})
-            clip->addChannel(channelOf(name, "translate"));
-    auto* colour = new osgAnimation::Vec4LinearChannel;
-    colour->setTargetName("look");
-    colour->setName("diffuse");
-    colour->getOrCreateSampler()->getOrCreateKeyframeContainer()->push_back(
-        osgAnimation::Vec4Keyframe(0.0, osg::Vec4(1, 0, 0, 1)));
-    result.back()->addChannel(colour);
-    return result;
-}
-
-} // namespace
-
-TEST(AutoPlayManager, LinksWhatOsgLinks) {
-    const osg::ref_ptr<osgAnimation::UpdateBone> bone = callbackOf<osgAnimation::UpdateBone>("a");
-    const osg::ref_ptr<osgAnimation::UpdateMatrixTransform>
-        nested = callbackOf<osgAnimation::UpdateMatrixTransform>("b"),
-        unmoved = callbackOf<osgAnimation::UpdateMatrixTransform>("nobody");
-    const osg::ref_ptr<OwnUpdate> own = callbackOf<OwnUpdate>("c");
-    unmoved->setNestedCallback(own);
-    nested->setNestedCallback(unmoved);
-    bone->setNestedCallback(nested);
-    const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
-    node->setUpdateCallback(bone);
-    const osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setUpdateCallback(new osgAnimation::UpdateMaterial("look"));
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->getOrCreateStateSet()->setAttribute(material);
-    const osg::ref_ptr<osg::Geode> leaf = new osg::Geode;
-    leaf->addDrawable(geometry);
-    node->addChild(leaf);
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(node);
-
-    const osgAnimation::AnimationList theirs = clips(), ours = clips();
-    osgAnimation::LinkVisitor visitor;
-    visitor.getAnimationList() = theirs;
-    root->accept(visitor);
-    EXPECT_EQ(own->asked, 2);
-    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
-    manager->registerAnimations(ours);
-    ASSERT_TRUE(manager->needToLink());
-    manager->link(root);
-    EXPECT_FALSE(manager->needToLink());
-    EXPECT_EQ(own->asked, 4);
-    for (std::size_t clip = 0; clip < ours.size(); ++clip)
-        for (std::size_t i = 0; i < ours[clip]->getChannels().size(); ++i) {
-            const std::string& name = ours[clip]->getChannels()[i]->getTargetName();
-            EXPECT_EQ(ours[clip]->getChannels()[i]->getTarget() ==
-                          theirs[clip]->getChannels()[i]->getTarget(),
-                      name != "elsewhere")
-                << clip << " " << name;
-        }
-}
-
-TEST(AutoPlayManager, PlaysTheFirstClipUnlessAnotherPlays) {
-    const osgAnimation::AnimationList some = clips();
-    some[0]->setName("first");
-    some[1]->setName("second");
-    for (const bool chosen : {false, true}) {
-        const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
-        manager->registerAnimations(some);
-        if (chosen) manager->playAnimation(some[1]);
-        manager->update(0.0);
-        EXPECT_EQ(manager->isPlaying("first"), !chosen);
-        EXPECT_EQ(manager->isPlaying("second"), chosen);
-        manager->stopAll();
-        manager->update(1.0); // starts by itself once
-        EXPECT_FALSE(manager->isPlaying("first"));
+TEST(ClipCharacter, FindsClipsByName) {
+    Character character(someClip(12, 0.3));
+    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
+    const auto clip = copies->clip("some");
+    EXPECT_EQ(clip->name(), "some");
+    EXPECT_EQ(copies->clip("some"), clip) << "sampled once";
+    try {
+        copies->clip("other");
+        ADD_FAILURE() << "expected an error";
+    } catch (const osgSkin::Error& error) {
+        EXPECT_NE(std::string(error.what()).find("expected one of \"some\""), std::string::npos);
     }
 }
 
-TEST(AutoPlayManager, PlaysPosesInEveryMode) {
-    using osgAnimation::Animation;
-    for (const Animation::PlayMode mode :
-         {Animation::ONCE, Animation::STAY, Animation::LOOP, Animation::PPONG}) {
-        const osg::ref_ptr<Animation> pose = clips().front();
-        pose->setPlayMode(mode);
-        const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
-        manager->registerAnimation(pose);
-        for (const double time : {5.0, 5.5, 9.0}) manager->update(time);
-        auto* target =
-            dynamic_cast<osgAnimation::Vec3Target*>(pose->getChannels().front()->getTarget());
-        ASSERT_NE(target, nullptr);
-        EXPECT_EQ(target->getValue(), osg::Vec3(1, 2, 3)) << mode;
+/// Baked data are for the model that the character had then.
+TEST(ClipCharacter, AcceptsAnotherModelAfterBaking) {
+    const auto skeleton = test::makeBones();
+    skeleton->addChild(test::makeSkin());
+    const auto character = osgSkin::ClipCharacter::create(*skeleton);
+    const auto clip = bentClip();
+    character->bake(clip);
+    const auto copy = character->makeInstance(false);
+    auto& skin = dynamic_cast<DeformableSkin&>(*copy.node->getChild(0)->asGroup()->getChild(0));
+    copy.player->setLayer(0, {clip});
+    EXPECT_EQ(posedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
+    skin.setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
+    EXPECT_EQ(posedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
+}
+
+TEST(ClipCharacter, BakesEverySkin) {
+    const auto skeleton = test::makeBones();
+    for (int i = 0; i < 2; ++i) {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(100.0 * i, 0, 0));
+        place->addChild(test::makeSkin());
+        skeleton->addChild(place);
     }
-}
-
-/// A manager that is added late plays from the start, and a clip that plays once plays completely.
-TEST(AutoPlayManager, PlaysFromItsFirstUpdateOn) {
-    const osgAnimation::AnimationList some = clips();
-    some[0]->setName("first");
-    some[0]->setPlayMode(osgAnimation::Animation::ONCE);
-    dynamic_cast<osgAnimation::Vec3LinearChannel&>(*some[0]->getChannels().front())
-        .getOrCreateSampler()
-        ->getOrCreateKeyframeContainer()
-        ->push_back(osgAnimation::Vec3Keyframe(2.0, osg::Vec3()));
-    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
-    manager->registerAnimations(some);
-    manager->update(100.0);
-    EXPECT_TRUE(manager->isPlaying("first"));
-    manager->update(101.0);
-    EXPECT_TRUE(manager->isPlaying("first"));
-    manager->update(102.5);
-    EXPECT_FALSE(manager->isPlaying("first"));
-}
-
-/// A channel moves one target: a rider's bone would take it from the horse's of the same name.
-TEST(AutoPlayManager, LeavesACharacterBelowTheSkeletonToItsOwnManager) {
-    const auto boneOf = [] {
-        const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("a");
-        bone->setUpdateCallback(callbackOf<osgAnimation::UpdateBone>("a"));
-        return bone;
-    };
-    const auto targetOf = [](osgAnimation::Bone& bone) {
-        auto& update = dynamic_cast<osgAnimation::UpdateBone&>(*bone.getUpdateCallback());
-        return update.getStackedTransforms().front()->getOrCreateTarget();
-    };
-    const osg::ref_ptr<osgAnimation::Skeleton> horse = new osgAnimation::Skeleton;
-    const osg::ref_ptr<osgAnimation::Bone> back = boneOf(), hips = boneOf();
-    const osg::ref_ptr<osg::Group> rider = new osg::Group;
-    horse->addChild(back);
-    back->addChild(rider);
-    rider->addChild(hips);
-    for (const bool managed : {false, true}) {
-        if (managed) rider->setUpdateCallback(new osgSkin::AutoPlayManager);
-        const osgAnimation::AnimationList ours = clips();
-        const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
-        manager->registerAnimations(ours);
-        manager->link(horse);
-        EXPECT_EQ(ours[0]->getChannels()[0]->getTarget(), targetOf(managed ? *back : *hips));
+    const auto character = osgSkin::ClipCharacter::create(*skeleton);
+    const auto clip = bentClip();
+    character->bake(clip);
+    EXPECT_NEAR(character->bakedBounds().xMax(), 101.0f, 1.0f);
+    EXPECT_NEAR(character->bakedBounds().xMin(), -1.0f, 1.0f);
+    const auto copy = character->makeInstance(false);
+    copy.player->setLayer(0, {clip});
+    ASSERT_TRUE(copy.player->pose());
+    std::size_t skins = 0;
+    for (unsigned i = 0; i < copy.node->getNumChildren(); ++i) {
+        const auto* skin =
+            dynamic_cast<DeformableSkin*>(copy.node->getChild(i)->asGroup()->getChild(0));
+        if (!skin) continue;
+        ++skins;
+        EXPECT_EQ(verticesOf(*skin), posedAfresh(skin->getModel(), clip)) << i;
+        EXPECT_TRUE(skin->getBoundingBox().valid());
     }
+    EXPECT_EQ(skins, 2u);
 }
 
-/// An application's own visitor does the linking, as with OSG's managers.
-TEST(AutoPlayManager, LeavesLinkingToVisitorsOfTheApplication) {
-    const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
-    node->setUpdateCallback(callbackOf<osgAnimation::UpdateMatrixTransform>("a"));
-    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
-    const osg::ref_ptr<osgAnimation::LinkVisitor> visitor = new osgAnimation::LinkVisitor;
-    manager->setLinkVisitor(visitor);
-    const unsigned int before = visitor->getNbLinkedTarget();
-    manager->registerAnimations(clips());
-    manager->link(node);
-    EXPECT_GT(visitor->getNbLinkedTarget(), before);
+TEST(ClipCharacter, FailedBakeChangesNothing) {
+    const auto skeleton = test::makeBones();
+    skeleton->addChild(test::makeSkin());
+    const auto character = osgSkin::ClipCharacter::create(*skeleton);
+    osgSkin::Clip bad = bentMotion();
+    bad.rotations.back().w = std::nan(""); // of the last sample
+    EXPECT_THROW(character->bake(SampledClip::create(bad, tubeRig())), osgSkin::Error);
+    EXPECT_FALSE(character->bakedBounds().valid());
+    character->bake(bentClip());
+    EXPECT_TRUE(character->bakedBounds().valid());
 }

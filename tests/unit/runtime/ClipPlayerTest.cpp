@@ -1,32 +1,22 @@
 // SPDX-License-Identifier: MIT
-//
 // Clips played without bones, compared with the same clips on an osgAnimation skeleton.
-//
-// The inputs of a clip player may change, or be missing.
+#include "BentClip.h"
 #include "Notices.h"
-#include "PlayedFigure.h"
-#include "TubeSkin.h"
-#include "Turns.h"
+#include "UpdateAt.h"
 
-#include <osgSkin/Error>
-#include <osgSkin/GlmOsg>
 #include <osgSkinRig/ClipCharacter>
 #include <osgSkinRig/ClipPlayer>
-#include <osgSkinRig/MakeAnimation>
-#include <osgSkinRig/MakeSkeleton>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 
 #include <cmath>
 #include <limits>
-#include <random>
-#include <utility>
 
 using namespace played;
 
 using osgSkin::ClipPlayer;
+using osgSkin::DeformableSkin;
 using osgSkin::SampledClip;
 
 namespace {
@@ -50,72 +40,7 @@ osgSkin::RestSkeleton sparseRig() {
 
 } // namespace
 
-TEST(SampledClip, PlacesTimes) {
-    const auto clip = SampledClip::create(someClip(10, 0.3), tubeRig());
-    ASSERT_EQ(clip->sampleCount(), 10u);
-    EXPECT_NEAR(clip->duration(), 10.0 * kFrame, 1e-12);
-    const auto expectPlace = [&](double time, bool loop, std::size_t from, std::size_t to,
-                                 double share) {
-        SCOPED_TRACE(time);
-        const SampledClip::Place place = clip->place(time, loop);
-        EXPECT_EQ(place.from, from);
-        EXPECT_EQ(place.to, to);
-        EXPECT_NEAR(place.share, share, 1e-6);
-    };
-    for (std::size_t i = 0; i < 10; ++i)
-        for (const double loops : {-3.0, 0.0, 1000.0}) {
-            const SampledClip::Place place =
-                clip->place(loops * clip->duration() + double(i) * kFrame, true);
-            EXPECT_EQ(place.from, i);
-            EXPECT_EQ(place.share, 0.0);
-        }
-    expectPlace(9.5 * kFrame, true, 9, 0, 0.5);
-    expectPlace(-0.25 * kFrame, true, 9, 0, 0.75);
-    expectPlace(9.5 * kFrame, false, 9, 9, 0.0);
-    expectPlace(-1.0, false, 0, 0, 0.0);
-    expectPlace(std::numeric_limits<double>::quiet_NaN(), true, 0, 0, 0.0);
-    expectPlace(std::numeric_limits<double>::infinity(), false, 0, 0, 0.0);
-    const auto single = SampledClip::create(someClip(1, 0.3), tubeRig());
-    EXPECT_EQ(single->place(17.3, true).from, 0u);
-    EXPECT_EQ(single->place(-17.3, true).to, 0u);
-}
-
-TEST(SampledClip, BlendsByTheShortestWayAtAnEvenSpeed) {
-    std::mt19937_64 random(3);
-    std::uniform_real_distribution<double> share(0.0, 1.0);
-    for (int i = 0; i < 20000; ++i) {
-        osgSkin::JointSample a, b;
-        a.rotation = test::randomRotation(random);
-        // Small and large angles, on both sides of the switch from the sines to a series.
-        const double angle = i % 2 == 0 ? 1.2 * share(random) : 1e-6 * share(random);
-        b.rotation = a.rotation * glm::angleAxis(angle, test::randomUnit(random));
-        if (i % 3 == 0) b.rotation = -b.rotation;
-        const double t = share(random);
-        const glm::dquat between = osgSkin::blend(a, b, t).rotation;
-        const glm::dquat exact = glm::slerp(a.rotation, b.rotation, t);
-        ASSERT_NEAR(std::abs(glm::dot(between, exact)), 1.0, 1e-14) << angle;
-        ASSERT_NEAR(glm::length(between), 1.0, 1e-14);
-        ASSERT_NEAR(glm::angle(glm::conjugate(a.rotation) *
-                               (glm::dot(between, a.rotation) < 0.0 ? -between : between)),
-                    t * angle, 1e-7);
-    }
-}
-
-TEST(SampledClip, RefusesWhatCannotBeSampled) {
-    EXPECT_THROW(SampledClip::create(osgSkin::Clip(), tubeRig()), osgSkin::Error);
-    const osg::ref_ptr<osgAnimation::Animation> none = new osgAnimation::Animation;
-    const osgAnimation::Animation& animation = *none;
-    const osg::ref_ptr<osgAnimation::Skeleton> empty = new osgAnimation::Skeleton;
-    EXPECT_THROW(SampledClip::create(animation, *empty), osgSkin::Error);
-    const auto skeleton = osgSkin::makeSkeleton(tubeRig());
-    for (const double rate : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-        EXPECT_THROW(SampledClip::create(animation, *skeleton, rate), osgSkin::Error);
-    EXPECT_EQ(SampledClip::create(animation, *skeleton)->sampleCount(), 1u);
-    osg::ref_ptr<osg::Group> nothing = new osg::Group;
-    EXPECT_THROW(osgSkin::ClipCharacter::create(*nothing), osgSkin::Error);
-}
-
-TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
+TEST(ClipPlayer, MatchesTheSkeleton) {
     const osgSkin::Clip clip = someClip(12, 0.8);
     Character character(clip);
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
@@ -149,7 +74,7 @@ TEST(ClipPlayer, PosesAsTheSkeletonDoes) {
     }
 }
 
-TEST(ClipPlayer, PosesWhatItIsGiven) {
+TEST(ClipPlayer, PosesAddedSkins) {
     const osgSkin::Clip clip = someClip(12, 0.8);
     Character character(clip);
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
@@ -166,7 +91,7 @@ TEST(ClipPlayer, PosesWhatItIsGiven) {
     }
 }
 
-TEST(ClipPlayer, AJointThatTheClipHasNotGoesWithItsParent) {
+TEST(ClipPlayer, JointMissingFromTheClipFollowsItsParent) {
     osgSkin::Clip whole = someClip(12, 0.8);
     for (std::size_t f = 0; f < whole.frames; ++f)
         whole.rotations[3 * f + 1] = glm::dquat(1.0, 0.0, 0.0, 0.0); // the middle one does not move
@@ -216,7 +141,7 @@ TEST(ClipPlayer, BlendsWithClipsOfFewerJoints) {
     }
 }
 
-TEST(ClipPlayer, ItsCopyPosesNothing) {
+TEST(ClipPlayer, CopyPosesNothing) {
     const test::Notices notices;
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     const osg::ref_ptr<ClipPlayer> copy = osg::clone(player.get(), osg::CopyOp::DEEP_COPY_ALL);
@@ -241,7 +166,7 @@ TEST(ClipPlayer, LoopsWithoutASeam) {
     }
 }
 
-TEST(ClipPlayer, GoesForwardBackwardAndStands) {
+TEST(ClipPlayer, PlaysForwardsBackwardsAndPauses) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
@@ -292,7 +217,7 @@ TEST(ClipPlayer, BlendsExactlyAtBothEnds) {
     EXPECT_LT(difference(half, a), difference(a, b));
 }
 
-TEST(ClipPlayer, TellsTheRootsWay) {
+TEST(ClipPlayer, ExtractsRootMotion) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto clip = SampledClip::create(someClip(12, 1.0), character.rig);
@@ -345,7 +270,7 @@ Vertices placedBy(const osgSkin::ClipCharacter::Instance& copy, const osg::Matri
 
 } // namespace
 
-TEST(ClipPlayer, AWalkerInPlaceThatIsMovedByItsRootMotionIsTheWalkerThatMoves) {
+TEST(ClipPlayer, RootMotionReplacesTheWalk) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto clip = SampledClip::create(walkOnAnArc(24, 5.0), character.rig);
@@ -365,7 +290,7 @@ TEST(ClipPlayer, AWalkerInPlaceThatIsMovedByItsRootMotionIsTheWalkerThatMoves) {
     }
 }
 
-TEST(ClipPlayer, RootMotionTurnsOnOverLoops) {
+TEST(ClipPlayer, RootMotionTurnsAcrossLoops) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     // A third of the circle: the walker is back after three loops, whatever the steps.
@@ -395,7 +320,7 @@ TEST(ClipPlayer, RootMotionTurnsOnOverLoops) {
     }
 }
 
-TEST(ClipPlayer, RootMotionTurnsByTheBlendOfTwoClips) {
+TEST(ClipPlayer, RootMotionBlendsTheTurnsOfTwoClips) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto straight = SampledClip::create(walkOnAnArc(24, 0.0), character.rig);
@@ -418,117 +343,25 @@ TEST(ClipPlayer, RootMotionTurnsByTheBlendOfTwoClips) {
     EXPECT_TRUE(copy.player->takeRootMatrix().isIdentity());
 }
 
-TEST(ClipCharacter, FindsClipsByName) {
-    Character character(someClip(12, 0.3));
-    const auto copies = osgSkin::ClipCharacter::create(*character.scene);
-    const auto clip = copies->clip("some");
-    EXPECT_EQ(clip->name(), "some");
-    EXPECT_EQ(copies->clip("some"), clip) << "sampled once";
-    try {
-        copies->clip("other");
-        ADD_FAILURE() << "expected an error";
-    } catch (const osgSkin::Error& error) {
-        EXPECT_NE(std::string(error.what()).find("expected one of \"some\""), std::string::npos);
-    }
-}
-
-TEST(ClipPlayer, IsAnUpdateCallback) {
+TEST(ClipPlayer, AdvancesAsAnUpdateCallback) {
     Character character(someClip(12, 0.0));
     const auto copies = osgSkin::ClipCharacter::create(*character.scene);
     const auto clip = SampledClip::create(someClip(12, 0.8), character.rig);
     const auto copy = copies->makeInstance();
     copy.player->setLayer(0, {clip, 0.0, 2.0});
-    osgUtil::UpdateVisitor visitor;
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    visitor.setFrameStamp(stamp);
-    for (const double time : {100.0, 100.1}) {
-        stamp->setSimulationTime(time);
-        copy.node->accept(visitor);
-    }
+    for (const double time : {100.0, 100.1}) test::updateAt(*copy.node, time);
     EXPECT_NEAR(copy.player->getLayer(0).time, 0.2, 1e-9);
     EXPECT_EQ(skinOf(*copy.node).getDeformCount(), 0u); // it has not been in view yet
 }
 
-using osgSkin::ClipPlayer;
-using osgSkin::DeformableSkin;
-using osgSkin::SampledClip;
-
-namespace {
-
-/// The tube's joints; `swapped` exchanges the names of the last two.
-osgSkin::RestSkeleton namedRig(bool swapped) {
-    osgSkin::RestSkeleton rig;
-    rig.add("root", -1, glm::dvec3(0, 0, 0));
-    rig.add(swapped ? "end" : "middle", 0, glm::dvec3(0, 2, 0));
-    rig.add(swapped ? "middle" : "end", 1, glm::dvec3(0, 4, 0));
-    return rig;
-}
-
-/// Each joint bends by a different angle.
-osgSkin::Clip bentMotion() {
-    osgSkin::Clip clip;
-    clip.frameTime = 0.1;
-    clip.frames = 2;
-    clip.joints = 3;
-    for (std::size_t f = 0; f < clip.frames; ++f) {
-        for (const double angle : {0.1, 0.4, 0.9})
-            clip.rotations.push_back(glm::angleAxis(angle, glm::dvec3(1, 0, 0)));
-        clip.rootPositions.emplace_back(0, 0, 0);
-    }
-    return clip;
-}
-
-osg::ref_ptr<const SampledClip> bentClip(bool swapped) {
-    return SampledClip::create(bentMotion(), namedRig(swapped));
-}
-
-std::vector<osg::Vec3> skinPosedBy(ClipPlayer& player, const DeformableSkin& skin) {
-    EXPECT_TRUE(player.pose());
-    return static_cast<const osg::Vec3Array&>(*skin.getDeformedGeometry()->getVertexArray())
-        .asVector();
-}
-
-/// The vertices of a player that has not played anything else.
-std::vector<osg::Vec3> posedAfresh(const osg::ref_ptr<const osgSkin::SkinModel>& model,
-                                   const osg::ref_ptr<const SampledClip>& clip) {
-    const auto skin = test::makeSkin();
-    skin->setSkin(test::makeGeometry(test::Tube()), model);
-    const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
-    player->addSkin(skin);
-    player->setLayer(0, {clip});
-    return skinPosedBy(*player, *skin);
-}
-
-osg::ref_ptr<const osgSkin::SkinModel> modelWithOtherNames() {
-    test::Tube tube;
-    std::swap(tube.binding.joints[1].name, tube.binding.joints[2].name);
-    return tube.model();
-}
-
-} // namespace
-
-TEST(ClipTrust, JointsAreFoundByNameAndTheRootByItsMoves) {
-    const osg::ref_ptr<const SampledClip> still = bentClip(false);
-    EXPECT_EQ(still->find("root"), 0);
-    EXPECT_EQ(still->find("end"), 2);
-    EXPECT_EQ(still->find("nobody"), -1);
-    EXPECT_EQ(still->rootJoint(), 0u); // no joint is translated
-    osgSkin::Clip motion = bentMotion();
-    motion.rootPositions[1].x = 3.0;
-    const osg::ref_ptr<const SampledClip> going = SampledClip::create(motion, namedRig(false));
-    EXPECT_EQ(going->rootJoint(), 0u);
-    EXPECT_NEAR(glm::distance(going->sample(1)->translation, going->sample(0)->translation), 3.0,
-                1e-12);
-}
-
 /// Memory is reused: a new clip may have the address of an old one.
-TEST(ClipTrust, AClipIsNotItsAddress) {
+TEST(ClipPlayer, DetectsANewClipAtAnOldAddress) {
     const auto skin = test::makeSkin();
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(skin);
-    osg::ref_ptr<const SampledClip> clip = bentClip(false);
+    osg::ref_ptr<const SampledClip> clip = bentClip();
     player->setLayer(0, {clip});
-    const std::vector<osg::Vec3> before = skinPosedBy(*player, *skin);
+    const Vertices before = posedBy(*player, *skin);
     const void* const place = clip.get();
     player->setLayer(0, {});
     EXPECT_FALSE(player->pose()); // nothing plays
@@ -537,149 +370,27 @@ TEST(ClipTrust, AClipIsNotItsAddress) {
     do others.push_back(bentClip(true));
     while (others.back() != place && others.size() < 3000);
     player->setLayer(0, {others.back()});
-    EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), others.back()));
-    EXPECT_NE(skinPosedBy(*player, *skin), before);
+    EXPECT_EQ(posedBy(*player, *skin), posedAfresh(skin->getModel(), others.back()));
+    EXPECT_NE(posedBy(*player, *skin), before);
     RecordProperty("clipsUntilThen", static_cast<int>(others.size()));
 }
 
-TEST(ClipTrust, ASkinMayGetItsModelLater) {
+TEST(ClipPlayer, AcceptsAModelThatIsSetLater) {
     const osg::ref_ptr<DeformableSkin> skin = new DeformableSkin;
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(skin);
-    player->setLayer(0, {bentClip(false)});
+    player->setLayer(0, {bentClip()});
     EXPECT_FALSE(player->pose());
     skin->setSkin(test::makeGeometry(test::Tube()), test::Tube().model());
-    EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip(false)));
+    EXPECT_EQ(posedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip()));
     skin->setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
-    EXPECT_EQ(skinPosedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip(false)));
+    EXPECT_EQ(posedBy(*player, *skin), posedAfresh(skin->getModel(), bentClip()));
 }
 
-/// Baked data are for the model that the character had then.
-TEST(ClipTrust, ABakedSkinMayGetAnotherModel) {
-    const auto skeleton = test::makeBones();
-    skeleton->addChild(test::makeSkin());
-    const auto character = osgSkin::ClipCharacter::create(*skeleton);
-    const auto clip = bentClip(false);
-    character->bake(clip);
-    const auto copy = character->makeInstance(false);
-    auto& skin = dynamic_cast<DeformableSkin&>(*copy.node->getChild(0)->asGroup()->getChild(0));
-    copy.player->setLayer(0, {clip});
-    EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
-    skin.setSkin(test::makeGeometry(test::Tube()), modelWithOtherNames());
-    EXPECT_EQ(skinPosedBy(*copy.player, skin), posedAfresh(skin.getModel(), clip));
-}
-
-TEST(ClipTrust, EverySkinOfACharacterIsBaked) {
-    const auto skeleton = test::makeBones();
-    for (int i = 0; i < 2; ++i) {
-        const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(osg::Matrix::translate(100.0 * i, 0, 0));
-        place->addChild(test::makeSkin());
-        skeleton->addChild(place);
-    }
-    const auto character = osgSkin::ClipCharacter::create(*skeleton);
-    const auto clip = bentClip(false);
-    character->bake(clip);
-    EXPECT_NEAR(character->bakedBounds().xMax(), 101.0f, 1.0f);
-    EXPECT_NEAR(character->bakedBounds().xMin(), -1.0f, 1.0f);
-    const auto copy = character->makeInstance(false);
-    copy.player->setLayer(0, {clip});
-    ASSERT_TRUE(copy.player->pose());
-    std::size_t skins = 0;
-    for (unsigned i = 0; i < copy.node->getNumChildren(); ++i) {
-        const auto* skin =
-            dynamic_cast<DeformableSkin*>(copy.node->getChild(i)->asGroup()->getChild(0));
-        if (!skin) continue;
-        ++skins;
-        const auto& posed =
-            static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
-        EXPECT_EQ(posed.asVector(), posedAfresh(skin->getModel(), clip)) << i;
-        EXPECT_TRUE(skin->getBoundingBox().valid());
-    }
-    EXPECT_EQ(skins, 2u);
-}
-
-TEST(ClipTrust, NothingIsNotAdded) {
+TEST(ClipPlayer, IgnoresNullSkinsAndParts) {
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     player->addSkin(nullptr);
     player->addRigid(nullptr, "root", osg::Matrixd());
-    player->setLayer(0, {bentClip(false)});
+    player->setLayer(0, {bentClip()});
     EXPECT_TRUE(player->pose());
-}
-
-TEST(ClipTrust, ABakeThatFailsLeavesAllAsItWas) {
-    const auto skeleton = test::makeBones();
-    skeleton->addChild(test::makeSkin());
-    const auto character = osgSkin::ClipCharacter::create(*skeleton);
-    osgSkin::Clip bad = bentMotion();
-    bad.rotations.back().w = std::nan(""); // of the last sample
-    EXPECT_THROW(character->bake(SampledClip::create(bad, namedRig(false))), osgSkin::Error);
-    EXPECT_FALSE(character->bakedBounds().valid());
-    character->bake(bentClip(false));
-    EXPECT_TRUE(character->bakedBounds().valid());
-}
-
-/// A key at the end of all times must not fill the memory.
-TEST(ClipTrust, EndlessClipsAreNotSampled) {
-    osgSkin::Clip slow = bentMotion();
-    slow.frameTime = 1e12;
-    const auto animation = osgSkin::makeAnimation(slow, namedRig(false));
-    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
-    EXPECT_THROW(SampledClip::create(*animation, *skeleton), osgSkin::Error);
-    slow.frameTime = 0.1;
-    const auto good = osgSkin::makeAnimation(slow, namedRig(false));
-    EXPECT_THROW(SampledClip::create(*good, *skeleton, 1e300), osgSkin::Error);
-    EXPECT_EQ(SampledClip::create(*good, *skeleton, 10.0)->sampleCount(), 2u);
-}
-
-/// osgAnimation stretches keys to the animation's duration.
-TEST(ClipTrust, SamplesAreTakenAsFastAsTheAnimationPlays) {
-    osgSkin::Clip motion = bentMotion();
-    motion.rotations[4] = glm::angleAxis(1.4, glm::dvec3(1, 0, 0)); // the middle one rotates by 1
-    const auto animation = osgSkin::makeAnimation(motion, namedRig(false));
-    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
-    const auto own = SampledClip::create(*animation, *skeleton, 40.0);
-    animation->setDuration(2.0 * animation->getDuration());
-    const auto slow = SampledClip::create(*animation, *skeleton, 20.0);
-    ASSERT_EQ(slow->sampleCount(), own->sampleCount());
-    EXPECT_NEAR(slow->duration(), 2.0 * own->duration(), 1e-6);
-    for (std::size_t i = 0; i < own->sampleCount(); ++i)
-        EXPECT_NEAR(glm::angle(slow->sample(i)[1].rotation), glm::angle(own->sample(i)[1].rotation),
-                    1e-5);
-    EXPECT_GT(glm::angle(own->sample(own->sampleCount() / 2)[1].rotation),
-              glm::angle(own->sample(0)[1].rotation) + 0.3);
-}
-
-/// Clips that move other bones: none affects the next one, nor the scene.
-TEST(ClipTrust, SamplingLeavesTheSkeletonAsItIs) {
-    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
-    const auto whole = osgSkin::makeAnimation(bentMotion(), namedRig(false));
-    const auto onlyOf = [&whole](const char* bone) {
-        const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
-        for (const auto& channel : whole->getChannels())
-            if (channel->getTargetName() == bone) animation->addChannel(channel->clone());
-        return animation;
-    };
-    const auto middle = SampledClip::create(*onlyOf("middle"), *skeleton, 10.0);
-    const auto end = SampledClip::create(*onlyOf("end"), *skeleton, 10.0);
-    const auto angleIn = [](const SampledClip& clip, const char* joint) {
-        return glm::angle(clip.sample(0)[clip.find(joint)].rotation);
-    };
-    EXPECT_NEAR(angleIn(*middle, "middle"), 0.4, 1e-6);
-    EXPECT_NEAR(angleIn(*middle, "end"), 0.0, 1e-6);
-    EXPECT_NEAR(angleIn(*end, "end"), 0.9, 1e-6);
-    EXPECT_NEAR(angleIn(*end, "middle"), 0.0, 1e-6);
-}
-
-/// The application's own callback may come before the one that moves the bone.
-TEST(ClipTrust, BonesMayHaveOtherCallbacksFirst) {
-    const auto skeleton = osgSkin::makeSkeleton(namedRig(false));
-    osg::Node& root = *skeleton->getChild(0);
-    const osg::ref_ptr<osg::Callback> update = root.getUpdateCallback();
-    const osg::ref_ptr<osg::NodeCallback> own = new osg::NodeCallback;
-    own->setNestedCallback(update);
-    root.setUpdateCallback(own);
-    const auto animation = osgSkin::makeAnimation(bentMotion(), namedRig(false));
-    const auto clip = SampledClip::create(*animation, *skeleton, 10.0);
-    EXPECT_NEAR(glm::angle(clip->sample(0)[clip->find("root")].rotation), 0.1, 1e-6);
 }

@@ -7,7 +7,6 @@
 #include "Tube.h"
 #include "Turns.h"
 
-#include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkin/Pose>
 
@@ -68,7 +67,7 @@ class CorrectedKernel : public test::EachTarget {};
 
 } // namespace
 
-TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
+TEST_P(CorrectedKernel, MatchesDoublePrecision) {
     std::mt19937_64 random(5);
     for (const bool inBestOrder : {false, true})
         for (int sides = 1; sides <= 40; sides += 3) {
@@ -78,16 +77,11 @@ TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
             ASSERT_TRUE(model->hasCorrectives());
             for (std::uint32_t i = 0; inBestOrder && i < model->order().size(); ++i)
                 ASSERT_EQ(model->order()[i], i);
-            std::vector<glm::vec3> positions(model->vertexCount()), normals = positions;
             for (const bool withNormals : {false, true}) {
                 const osgSkin::Pose pose = tubePose(skin.binding, random);
-                osgSkin::DeformJob job;
-                job.model = model.get();
-                job.pose = &pose;
-                job.positions = positions.data();
-                job.normals = withNormals ? normals.data() : nullptr;
-                job.positionCount = job.normalCount = positions.size();
-                ASSERT_TRUE(run(job));
+                osgSkin::DeformOptions options;
+                options.normals = withNormals;
+                const std::vector<glm::vec3> positions = deform(*model, pose, options).positions;
                 for (std::uint32_t v = 0; v < positions.size(); ++v) {
                     const glm::dvec3 x =
                         expected(skin.binding, pose, skin.source[v], glm::dvec3(skin.positions[v]));
@@ -98,52 +92,29 @@ TEST_P(CorrectedKernel, AgreesWithDoublePrecision) {
         }
 }
 
-TEST_P(CorrectedKernel, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference is not divided into parts
+TEST_P(CorrectedKernel, PartsMatchTheWhole) {
+    if (isReference()) return; // it is not divided into parts
     std::mt19937_64 random(6);
     for (const bool inBestOrder : {false, true}) {
         const CorrectedTube skin(25, 777, inBestOrder);
         const auto model = skin.model();
         const osgSkin::Pose pose = tubePose(skin.binding, random);
-        std::vector<glm::vec3> whole(model->vertexCount()), parts = whole;
-        osgSkin::DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = whole.data();
-        job.positionCount = whole.size();
-        ASSERT_TRUE(job.run());
-        job.positions = parts.data();
-        ASSERT_GE(job.partCount(), 3u);
-        for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
-        EXPECT_EQ(parts, whole);
+        EXPECT_EQ(test::deformInParts(*model, pose).positions, deform(*model, pose).positions);
     }
 }
 
-TEST_P(CorrectedKernel, RestPoseIsTheRestSkin) {
+TEST_P(CorrectedKernel, ChangesNothingAtRest) {
     const CorrectedTube skin(21, 7, true);
-    const auto model = skin.model();
-    osgSkin::Pose pose(skin.binding.joints);
-    std::vector<glm::vec3> positions(model->vertexCount());
-    osgSkin::DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = positions.data();
-    job.positionCount = positions.size();
-    ASSERT_TRUE(run(job));
-    const auto plain = [&] {
-        test::Tube tube = skin;
-        tube.binding.correctives = {};
-        return tube.model();
-    }();
-    std::vector<glm::vec3> without(positions.size());
-    job.model = plain.get();
-    job.positions = without.data();
-    ASSERT_TRUE(run(job));
+    test::Tube plain = skin;
+    plain.binding.correctives = {};
+    const osgSkin::Pose pose(skin.binding.joints);
+    const std::vector<glm::vec3> positions = deform(*skin.model(), pose).positions;
+    const std::vector<glm::vec3> without = deform(*plain.model(), pose).positions;
     for (std::size_t v = 0; v < positions.size(); ++v)
         EXPECT_LE(glm::distance(positions[v], without[v]), 2e-6f) << v;
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, CorrectedKernel, testing::ValuesIn(test::ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, CorrectedKernel, testing::ValuesIn(test::allTargets()),
                          [](const auto& tested) { return tested.param.name; });
 
 using osgSkin::CorrectiveJoint;
@@ -158,7 +129,7 @@ CorrectiveJoint functionsOf(Basis basis) {
 
 } // namespace
 
-TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
+TEST(CorrectiveJoint, CoordinatesMatchTheBendQuaternion) {
     const CorrectiveJoint joint = functionsOf(Basis::Ball);
     const glm::dvec3 w(0, 1, 0), e1 = joint.axis, e2 = glm::cross(w, e1);
     for (const double angle : {0.0, 0.4, 2.0, 3.1})
@@ -170,7 +141,7 @@ TEST(CorrectiveJoint, CoordinatesAreTheBendQuaternions) {
         }
 }
 
-TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
+TEST(CorrectiveJoint, ClampIsSmoothAndEndsAtTheRange) {
     for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
         const CorrectiveJoint joint = functionsOf(basis);
         EXPECT_EQ(joint.clamped({0.3, -0.2}), glm::dvec2(0.3, -0.2));
@@ -191,7 +162,7 @@ TEST(CorrectiveJoint, ClampIsTheIdentityAroundRestAndEndsAtTheRange) {
     }
 }
 
-TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
+TEST(CorrectiveJoint, FunctionsAreSmoothAndZeroAtRest) {
     for (const Basis basis : {Basis::Hinge, Basis::Ball, Basis::Round, Basis::TurnedHinge}) {
         const CorrectiveJoint joint = functionsOf(basis);
         CorrectiveJoint::Functions phi{}, before{}, behind{};
@@ -209,7 +180,7 @@ TEST(CorrectiveJoint, EveryFunctionIsNothingAtRestAndSmooth) {
     }
 }
 
-TEST(CorrectiveJoint, HingesSplinesSpanEveryQuadraticFunction) {
+TEST(CorrectiveJoint, HingeSplinesReproduceALinearFunction) {
     // Greville's points reproduce x; without the constant function, too.
     const CorrectiveJoint joint = functionsOf(Basis::Hinge);
     const std::vector<double>& t = joint.knots;
@@ -225,7 +196,7 @@ TEST(CorrectiveJoint, HingesSplinesSpanEveryQuadraticFunction) {
     }
 }
 
-TEST(Correctives, AreRefusedWithAReason) {
+TEST(Correctives, RejectInvalidDataWithAReason) {
     using Spoil = std::function<void(osgSkin::Correctives&)>;
     const test::Tube tube;
     const std::pair<const char*, Spoil> cases[] = {

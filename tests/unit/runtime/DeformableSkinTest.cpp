@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
-//
 // A skin's drawn geometry: two buffers, filled alternately, with everything that the rest geometry
 // has.
-#include "Notices.h"
 #include "SomeCorrectives.h"
 #include "TubeSkin.h"
 
+#include <osgSkin/DeformPool>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
-#include <osgSkin/GlmOsg>
-#include <osgSkin/UpdateDeformableSkin>
 
 #include <gtest/gtest.h>
 #include <osg/Point>
 #include <osg/TriangleFunctor>
-#include <osgUtil/LineSegmentIntersector>
 #include <osgUtil/Optimizer>
-#include <osgUtil/UpdateVisitor>
 
 #include <cmath>
 
@@ -25,6 +20,7 @@ using test::cull;
 using test::makeBones;
 using test::makeGeometry;
 using test::makeSkin;
+using test::verticesOf;
 
 namespace {
 
@@ -41,7 +37,7 @@ struct OpenSkin : osgSkin::DeformableSkin {
 
 } // namespace
 
-TEST(DeformableSkin, DefaultIsEmptyAndHarmless) {
+TEST(DeformableSkin, DefaultIsEmpty) {
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     EXPECT_EQ(skin->getDeformedGeometry(), nullptr);
     EXPECT_FALSE(skin->setPose(std::vector<osg::Matrixd>()));
@@ -52,7 +48,7 @@ TEST(DeformableSkin, DefaultIsEmptyAndHarmless) {
     EXPECT_EQ(count.triangles, 0u);
 }
 
-TEST(DeformableSkin, RefusesGeometryThatDoesNotFit) {
+TEST(DeformableSkin, RejectsMismatchedGeometry) {
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     EXPECT_THROW(skin->setSkin(nullptr, test::Tube().model()), osgSkin::Error);
     EXPECT_THROW(skin->setSkin(makeGeometry(test::Tube()), nullptr), osgSkin::Error);
@@ -77,7 +73,7 @@ TEST(DeformableSkin, RefusesGeometryThatDoesNotFit) {
     EXPECT_EQ(skin->getModel(), nullptr);
 }
 
-TEST(DeformableSkin, DeformsOncePerPoseAndOnlyWhenSeen) {
+TEST(DeformableSkin, DeformsOncePerPoseAndOnlyInView) {
     const auto skin = makeSkin();
     bend(*skin, 0.3);
     EXPECT_EQ(skin->getDeformCount(), 0u);
@@ -92,25 +88,11 @@ TEST(DeformableSkin, DeformsOncePerPoseAndOnlyWhenSeen) {
     EXPECT_EQ(skin->getDeformCount(), 2u);
 }
 
-TEST(DeformableSkin, EagerDeformsAtOnce) {
+TEST(DeformableSkin, EagerSkinDeformsImmediately) {
     const auto skin = makeSkin();
     skin->setEager(true);
     bend(*skin, 0.3);
     EXPECT_EQ(skin->getDeformCount(), 1u);
-}
-
-TEST(DeformableSkin, PickingHitsThePosedSkin) {
-    const auto skin = makeSkin();
-    bend(*skin, osg::PI_2); // the upper part now points along +z
-    const auto hits = [&skin](const osg::Vec3d& from, const osg::Vec3d& to) {
-        const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
-            new osgUtil::LineSegmentIntersector(from, to);
-        osgUtil::IntersectionVisitor visitor(line);
-        skin->accept(visitor);
-        return line->containsIntersections();
-    };
-    EXPECT_TRUE(hits({-5, 2, 3}, {5, 2, 3}));
-    EXPECT_FALSE(hits({-5, 5, 0}, {5, 5, 0}));
 }
 
 TEST(DeformableSkin, BoundsFollowThePose) {
@@ -122,7 +104,7 @@ TEST(DeformableSkin, BoundsFollowThePose) {
 }
 
 /// Otherwise cull threads that start together would compute it at the same time.
-TEST(DeformableSkin, KnowsItsBoundAsSoonAsItIsPosed) {
+TEST(DeformableSkin, ComputesItsBoundWhenPosed) {
     const osg::ref_ptr<osgSkin::DeformableSkin> of = makeSkin();
     const osg::ref_ptr<OpenSkin> skin = new OpenSkin;
     skin->setSkin(new osg::Geometry(*of->getRestGeometry()), of->getModel());
@@ -131,22 +113,19 @@ TEST(DeformableSkin, KnowsItsBoundAsSoonAsItIsPosed) {
     EXPECT_TRUE(skin->isBounded());
 }
 
-TEST(DeformableSkin, CopiesShareTheModelAndOwnTheirPose) {
+TEST(DeformableSkin, CopiesShareTheModelButNotThePose) {
     const auto skin = makeSkin();
     bend(*skin, 0.5);
     const osg::ref_ptr<osgSkin::DeformableSkin> copy =
         osg::clone(skin.get(), osg::CopyOp::DEEP_COPY_ALL);
     EXPECT_EQ(copy->getModel(), skin->getModel());
-    const osg::Vec3 before =
-        static_cast<const osg::Vec3Array*>(copy->getDeformedGeometry()->getVertexArray())->back();
+    const std::vector<osg::Vec3> before = verticesOf(*copy);
     bend(*skin, 1.0);
     skin->getDeformedGeometry();
-    EXPECT_EQ(
-        static_cast<const osg::Vec3Array*>(copy->getDeformedGeometry()->getVertexArray())->back(),
-        before);
+    EXPECT_EQ(verticesOf(*copy), before);
 }
 
-TEST(DeformableSkin, OptimizerLeavesItAlone) {
+TEST(DeformableSkin, OptimizerDoesNotChangeIt) {
     const osg::ref_ptr<osg::MatrixTransform> scene =
         new osg::MatrixTransform(osg::Matrix::translate(10, 0, 0));
     scene->setDataVariance(osg::Object::STATIC);
@@ -163,149 +142,13 @@ TEST(DeformableSkin, OptimizerLeavesItAlone) {
     }
 }
 
-TEST(UpdateDeformableSkin, FollowsTheBonesOfTheSkeletonAbove) {
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
-    const auto skin = makeSkin();
-    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
-    skeleton->addChild(skin);
-    auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
-    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
-    auto& end = static_cast<osgAnimation::Bone&>(*middle.getChild(0));
-    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(osg::PI_2, osg::Vec3(1, 0, 0)) *
-                                    osg::Matrix::translate(0, 2, 0));
-    end.setMatrixInSkeletonSpace(osg::Matrix::translate(0, 2, 0) *
-                                 middle.getMatrixInSkeletonSpace());
-
-    osgUtil::UpdateVisitor update;
-    update.setTraversalNumber(1);
-    skeleton->accept(update);
-    const auto& vertices =
-        static_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
-    EXPECT_LE((vertices.back() - osg::Vec3(std::cos(float(osg::PI) / 6), 2.5f, 4)).length(), 1e-5);
-    EXPECT_NEAR(skin->getPose().transform(1).split.bendAngle, osg::PI_2, 1e-12);
-    EXPECT_NEAR(skin->getPose().transform(2).split.bendAngle, 0.0, 1e-12);
-}
-
-TEST(UpdateDeformableSkin, AJointWithoutABoneMovesWithItsParent) {
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
-    auto& root = static_cast<osgAnimation::Bone&>(*skeleton->getChild(0));
-    auto& middle = static_cast<osgAnimation::Bone&>(*root.getChild(0));
-    middle.removeChildren(0, middle.getNumChildren());
-    const auto skin = makeSkin();
-    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
-    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(1.0, osg::Vec3(1, 0, 0)) *
-                                    osg::Matrix::translate(0, 2, 0));
-    const test::Notices notices;
-    ASSERT_TRUE(update->pose(*skin, *skeleton));
-    EXPECT_NEAR(std::abs(skin->getPose().transform(2).rotation.w), 1.0, 1e-12);
-    EXPECT_TRUE(notices.say("has no bone \"end\"; the joint moves with its parent"));
-    ASSERT_TRUE(update->pose(*skin, *skeleton));
-    EXPECT_EQ(notices.lines(), 1u) << notices.text();
-}
-
-/// Such as the one that readSkeleton() adds above several roots.
-TEST(UpdateDeformableSkin, ARootWithoutABoneIsNoNews) {
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
-    skeleton->getChild(0)->setName("another");
-    const test::Notices notices;
-    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
-    ASSERT_TRUE(update->pose(*makeSkin(), *skeleton));
-    EXPECT_EQ(notices.text(), "");
-}
-
-namespace {
-
-osgAnimation::Bone& middleOf(osgAnimation::Skeleton& skeleton) {
-    return static_cast<osgAnimation::Bone&>(*skeleton.getChild(0)->asGroup()->getChild(0));
-}
-
-void turn(osgAnimation::Bone& middle, double angle) {
-    middle.setMatrixInSkeletonSpace(osg::Matrix::rotate(angle, osg::Vec3(1, 0, 0)) *
-                                    osg::Matrix::translate(0, 2, 0));
-}
-
-double bendOf(const osgSkin::DeformableSkin& skin) {
-    return skin.getPose().transform(1).split.bendAngle;
-}
-
-} // namespace
-
-/// Such as a rider's, whose bones have the same names as the horse's.
-TEST(UpdateDeformableSkin, LeavesTheBonesOfASkeletonBelowToIt) {
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones(), rider = makeBones();
-    middleOf(*skeleton).addChild(rider);
-    turn(middleOf(*skeleton), 0.5);
-    turn(middleOf(*rider), 1.0);
-    const auto skin = makeSkin(), riders = makeSkin();
-    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
-    ASSERT_TRUE(update->pose(*skin, *skeleton));
-    EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
-    ASSERT_TRUE(update->pose(*riders, *rider));
-    EXPECT_NEAR(bendOf(*riders), 1.0, 1e-9);
-}
-
-TEST(UpdateDeformableSkin, FollowsABoneThatTakesAnothersPlace) {
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
-    const auto skin = makeSkin();
-    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
-    ASSERT_TRUE(update->pose(*skin, *skeleton));
-    osg::Group& root = *skeleton->getChild(0)->asGroup();
-    root.setChild(0, osg::clone(root.getChild(0), osg::CopyOp::SHALLOW_COPY));
-    turn(middleOf(*skeleton), 0.5);
-    ASSERT_TRUE(update->pose(*skin, *skeleton));
-    EXPECT_NEAR(bendOf(*skin), 0.5, 1e-9);
-}
-
-/// A skin has a single pose; under several skeletons it would need several.
-TEST(UpdateDeformableSkin, SeveralSkeletonsOfOneSkinAreToldOf) {
-    const osg::ref_ptr<osgAnimation::Skeleton> first = makeBones(), second = makeBones();
-    const auto skin = makeSkin();
-    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->addChild(first);
-    scene->addChild(second);
-    osgUtil::UpdateVisitor update;
-    const test::Notices notices;
-    first->addChild(skin);
-    scene->accept(update);
-    first->removeChild(skin); // moved: no warning
-    second->addChild(skin);
-    scene->accept(update);
-    EXPECT_EQ(notices.text(), "");
-    first->addChild(skin);
-    scene->accept(update);
-    scene->accept(update);
-    EXPECT_TRUE(notices.say("is below several skeletons")) << notices.text();
-    EXPECT_EQ(notices.lines(), 1u);
-}
-
-TEST(UpdateDeformableSkin, LetsCallbacksThatAreAddedToItRun) {
-    struct Count : osg::DrawableUpdateCallback {
-        int times = 0;
-        void update(osg::NodeVisitor*, osg::Drawable*) override { ++times; }
-    };
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
-    const auto skin = makeSkin();
-    const osg::ref_ptr<Count> added = new Count;
-    skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
-    skin->addUpdateCallback(added);
-    skeleton->addChild(skin);
-    osgUtil::UpdateVisitor update;
-    skeleton->accept(update);
-    EXPECT_EQ(added->times, 1);
-}
-
-TEST(DeformableSkin, FollowsAnActivation) {
+TEST(DeformableSkin, DeformsByItsActivations) {
     test::Tube tube;
     tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 5);
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     EXPECT_FALSE(skin->setActivation("breath", 1.0f)); // no skin yet
     skin->setSkin(makeGeometry(tube), tube.model());
-    const auto vertices = [](const osgSkin::DeformableSkin& of) {
-        return static_cast<const osg::Vec3Array*>(of.getDeformedGeometry()->getVertexArray())
-            ->asVector();
-    };
-    const auto atRest = vertices(*skin);
+    const auto atRest = verticesOf(*skin);
     EXPECT_EQ(skin->getActivation("breath"), 0.0f);
     EXPECT_FALSE(skin->setActivation("Breath", 1.0f));
     EXPECT_FALSE(skin->setActivation("breath", std::nanf("")));
@@ -313,20 +156,20 @@ TEST(DeformableSkin, FollowsAnActivation) {
     EXPECT_TRUE(skin->setActivation("breath", 0.5f));
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
     EXPECT_TRUE(skin->needsDeform());
-    EXPECT_NE(vertices(*skin), atRest);
+    EXPECT_NE(verticesOf(*skin), atRest);
     EXPECT_TRUE(skin->setActivation("breath", 0.5f)); // the same value causes no work
     EXPECT_FALSE(skin->needsDeform());
     // The pose changes independently, and copies keep it.
     bend(*skin, 0.3);
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
     const osg::ref_ptr<osgSkin::DeformableSkin> copy = new osgSkin::DeformableSkin(*skin);
-    EXPECT_EQ(vertices(*copy), vertices(*skin));
+    EXPECT_EQ(verticesOf(*copy), verticesOf(*skin));
     EXPECT_TRUE(copy->setActivation("breath", 0.0f));
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
     // Another geometry of the same skin has the same activation.
     skin->setSkin(makeGeometry(tube), tube.model());
     EXPECT_EQ(skin->getActivation("breath"), 0.5f);
-    EXPECT_NE(vertices(*skin), atRest);
+    EXPECT_NE(verticesOf(*skin), atRest);
 }
 
 namespace {
@@ -359,7 +202,7 @@ osg::ref_ptr<osgSkin::DeformableSkin> makeRichSkin() {
 
 } // namespace
 
-TEST(SkinBuffers, AlternateWhenOneHasBeenHandedOut) {
+TEST(SkinBuffers, AlternateBetweenFrames) {
     const auto skin = test::makeSkin();
     std::vector<const osg::Geometry*> drawn;
     for (int frame = 1; frame <= 3; ++frame) {
@@ -375,7 +218,7 @@ TEST(SkinBuffers, AlternateWhenOneHasBeenHandedOut) {
 
 // A pose that is read and replaced within a frame must not change the buffer that a draw thread is
 // still reading.
-TEST(SkinBuffers, WhatIsBeingDrawnIsNotWritten) {
+TEST(SkinBuffers, DoNotOverwriteTheBufferBeingDrawn) {
     const auto skin = test::makeSkin();
     test::bend(*skin, 0.3);
     test::cull(*skin, true);
@@ -389,7 +232,7 @@ TEST(SkinBuffers, WhatIsBeingDrawnIsNotWritten) {
     EXPECT_EQ(static_cast<const osg::Vec3Array*>(drawn->getVertexArray())->asVector(), vertices);
 }
 
-TEST(SkinBuffers, APausedPoseIsNotDeformedAgain) {
+TEST(SkinBuffers, AreKeptWhileThePoseIsTheSame) {
     const auto skin = test::makeSkin();
     for (int frame = 0; frame < 5; ++frame) {
         test::bend(*skin, 0.3);
@@ -399,13 +242,13 @@ TEST(SkinBuffers, APausedPoseIsNotDeformedAgain) {
     EXPECT_DOUBLE_EQ(skin->getPose().transform(1).split.bendAngle, 0.3);
 }
 
-TEST(SkinBuffers, DoNotHoldUpTheNextUpdate) {
+TEST(SkinBuffers, AreNotDynamic) {
     const auto skin = test::makeSkin();
     EXPECT_NE(skin->getDeformedGeometry()->getDataVariance(), osg::Object::DYNAMIC);
     EXPECT_FALSE(skin->getDeformedGeometry()->getUseDisplayList());
 }
 
-TEST(SkinBuffers, FollowTheVertexBufferSetting) {
+TEST(SkinBuffers, FollowVertexBufferSettings) {
     const auto skin = test::makeSkin();
     EXPECT_TRUE(skin->getDeformedGeometry()->getUseVertexBufferObjects());
     skin->setUseDisplayList(true);
@@ -420,7 +263,7 @@ TEST(SkinBuffers, FollowTheVertexBufferSetting) {
 }
 
 /// Other skins may be drawing right now with buffers that one skin releases.
-TEST(SkinBuffers, LeaveAloneWhatOthersDrawWith) {
+TEST(SkinBuffers, DoNotReleaseSharedObjects) {
     static int releases;
     releases = 0;
     struct Counted : osg::Point {
@@ -444,7 +287,7 @@ TEST(SkinBuffers, LeaveAloneWhatOthersDrawWith) {
     EXPECT_GT(releases, 0);
 }
 
-TEST(SkinBuffers, FollowTheDrawCallback) {
+TEST(SkinBuffers, UseTheDrawCallback) {
     struct Nothing : osg::Drawable::DrawCallback {};
     const osg::ref_ptr<Nothing> callback = new Nothing, ofRest = new Nothing;
     const osg::ref_ptr<osg::Geometry> rest = makeRich();
@@ -459,7 +302,7 @@ TEST(SkinBuffers, FollowTheDrawCallback) {
     EXPECT_EQ(skin->getDeformedGeometry()->getDrawCallback(), callback);
 }
 
-TEST(SkinBuffers, KeepEverythingElse) {
+TEST(SkinBuffers, ShareAllOtherArrays) {
     const auto skin = makeRichSkin();
     test::bend(*skin, 1.0);
     const osg::Geometry& rest = *skin->getRestGeometry();
@@ -474,7 +317,7 @@ TEST(SkinBuffers, KeepEverythingElse) {
 }
 
 /// The model has the vertices, so an application may remove the geometry's.
-TEST(SkinBuffers, NeedNoArraysOfTheRestGeometry) {
+TEST(SkinBuffers, DoNotNeedTheRestArrays) {
     const auto array = [](const osg::Array* of) {
         return static_cast<const osg::Vec3Array&>(*of).asVector();
     };
@@ -502,7 +345,7 @@ TEST(SkinBuffers, NeedNoArraysOfTheRestGeometry) {
     }
 }
 
-TEST(SkinBuffers, TangentsTurnWithTheNormals) {
+TEST(SkinBuffers, TangentsFollowTheNormals) {
     const auto skin = makeRichSkin();
     std::vector<const osg::Array*> arrays;
     for (const double angle : {0.0, osg::PI_2}) {
@@ -532,7 +375,7 @@ TEST(SkinBuffers, TangentsTurnWithTheNormals) {
     EXPECT_NE(arrays[0], arrays[1]); // each buffer has its own
 }
 
-TEST(SkinBuffers, TangentsMayHaveThreeCoordinates) {
+TEST(SkinBuffers, AcceptTangentsOfThreeCoordinates) {
     const osg::ref_ptr<osg::Geometry> rest = makeRich();
     const test::Tube tube;
     const osg::ref_ptr<osg::Vec3Array> three = new osg::Vec3Array;
@@ -548,7 +391,7 @@ TEST(SkinBuffers, TangentsMayHaveThreeCoordinates) {
     EXPECT_EQ(posed.back().w(), 1.0f);
 }
 
-TEST(SkinBuffers, TangentsThatAreNotThereAreRefused) {
+TEST(SkinBuffers, RejectMissingTangents) {
     const auto skin = test::makeSkin();
     EXPECT_THROW(skin->setTangentAttribute(kTangents), osgSkin::Error);
     EXPECT_EQ(skin->getTangentAttribute(), -1);
@@ -558,4 +401,14 @@ TEST(SkinBuffers, TangentsThatAreNotThereAreRefused) {
     const osg::ref_ptr<osg::Geometry> wrong = makeRich();
     wrong->setVertexAttribArray(3, new osg::Vec4Array(5), osg::Array::BIND_PER_VERTEX);
     EXPECT_THROW(other->setSkin(wrong, test::Tube().model()), osgSkin::Error);
+}
+
+TEST(DeformableSkin, DeformsOnAPool) {
+    const auto skin = test::makeSkin(), alone = test::makeSkin();
+    const osg::ref_ptr<osgSkin::DeformPool> pool = new osgSkin::DeformPool(2);
+    pool->setMinimumVertices(0);
+    skin->setPool(pool);
+    test::bend(*skin, 0.7);
+    test::bend(*alone, 0.7);
+    EXPECT_EQ(verticesOf(*skin), verticesOf(*alone));
 }

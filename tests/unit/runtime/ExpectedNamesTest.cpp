@@ -25,15 +25,15 @@ std::ostream& operator<<(std::ostream& out, const Word& word) {
     return out << word.name;
 }
 
-class Nearest : public testing::TestWithParam<Word> {};
+class NearestName : public testing::TestWithParam<Word> {};
 
 } // namespace
 
-TEST_P(Nearest, NameIsSuggested) {
+TEST_P(NearestName, IsSuggested) {
     EXPECT_EQ(nearestName(GetParam().word, kKnown), GetParam().meant);
 }
 
-INSTANTIATE_TEST_SUITE_P(Words, Nearest,
+INSTANTIATE_TEST_SUITE_P(Words, NearestName,
                          testing::Values(Word{"LetterMissing", "shape", "shapes"},
                                          Word{"LetterTooMany", "shappes", "shapes"},
                                          Word{"OtherLetter", "shopes", "shapes"},
@@ -48,20 +48,20 @@ INSTANTIATE_TEST_SUITE_P(Words, Nearest,
                                          Word{"None", "", ""}),
                          [](const auto& word) { return std::string(word.param.name); });
 
-TEST(Nearest, NamesOfAnyLengthAreCompared) {
+TEST(NearestName, AcceptsNamesOfAnyLength) {
     const std::string longName(10'000'000, 'n');
     EXPECT_EQ(nearestName(longName, {longName, "n"}), "");
     EXPECT_EQ(nearestName("shape", {longName, "shapes"}), "shapes");
 }
 
-TEST(ExpectedNames, ListsTheKnownOnes) {
+TEST(ExpectedNames, ListsKnownNames) {
     EXPECT_EQ(expectedNames("rnu", {"walk", "run"}),
               R"(, expected one of "walk", "run"; did you mean "run"?)");
     EXPECT_EQ(expectedNames("fly", {"walk", "run"}), R"(, expected one of "walk", "run")");
     EXPECT_EQ(expectedNames("fly", {}), "");
 }
 
-TEST(ExpectedNames, CutsLongLists) {
+TEST(ExpectedNames, TruncatesLongLists) {
     std::vector<std::string> joints;
     for (int j = 0; j < 5000; ++j) joints.push_back("joint" + std::to_string(j));
     const std::string text = expectedNames("joint4999x", joints);

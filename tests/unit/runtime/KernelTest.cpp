@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: MIT
-//
 // The fast path with every instruction set of this machine, and the scalar reference, compared with
 // the formula in double precision.
-//
-// The order of the product follows the tree, whatever the order in the file.
 #include "EachTarget.h"
 #include "Tube.h"
 #include "Turns.h"
 
-#include <osgSkin/Binding>
 #include <osgSkin/DeformJob>
-#include <osgSkin/Error>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
-
-using namespace osgSkin;
 
 namespace {
 
@@ -162,12 +151,12 @@ enum class Streams { None, Normals, NormalsAndTangents };
 
 class Kernel : public test::EachTarget {
 protected:
-    static void deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
-                       Streams streams);
+    void deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
+                Streams streams) const;
 };
 
 void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& model,
-                    Streams streams) {
+                    Streams streams) const {
     const bool withNormals = streams != Streams::None;
     const bool withTangents = streams == Streams::NormalsAndTangents;
     const std::size_t count = skin.positions.size();
@@ -185,7 +174,7 @@ void Kernel::deform(const Skin& skin, const osgSkin::Pose& pose, const Model& mo
     job.restTangents = restTangents.get();
     job.tangents = withTangents ? tangents.data() + 1 : nullptr;
     job.tangentCount = count;
-    ASSERT_TRUE(GetParam().target ? job.run() : job.runReference());
+    ASSERT_TRUE(isReference() ? job.runReference() : job.run());
     for (std::uint32_t v = 0; v < count; ++v) {
         glm::dvec3 x(skin.positions[v]), n(skin.normals[v]), t(skin.tangents[v]);
         reference(skin.binding, pose, skin.source[v], x, n, t);
@@ -229,7 +218,7 @@ osgSkin::Pose randomPose(const osgSkin::Binding& binding, double moves, std::mt1
 
 } // namespace
 
-TEST_P(Kernel, AgreesWithDoublePrecisionForEveryGroupSize) {
+TEST_P(Kernel, MatchesDoublePrecisionForEveryGroupSize) {
     std::mt19937_64 random(11);
     // A long limb has five joints; more rotations, each about a distant centre, leave the body.
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
@@ -244,7 +233,7 @@ TEST_P(Kernel, AgreesWithDoublePrecisionForEveryGroupSize) {
     }
 }
 
-TEST_P(Kernel, FollowsEvenScale) {
+TEST_P(Kernel, FollowsUniformScale) {
     std::mt19937_64 random(15);
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
     for (const std::size_t size : {1u, 7u, 33u}) {
@@ -258,7 +247,7 @@ TEST_P(Kernel, FollowsEvenScale) {
     }
 }
 
-TEST_P(Kernel, AgreesForVerticesInTheBestOrder) {
+TEST_P(Kernel, MatchesDoublePrecisionInBestOrder) {
     std::mt19937_64 random(12);
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
     for (std::size_t size = 1; size <= 33; ++size) {
@@ -271,7 +260,7 @@ TEST_P(Kernel, AgreesForVerticesInTheBestOrder) {
     }
 }
 
-TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
+TEST_P(Kernel, HandlesLongChainsAndManyPartialJoints) {
     std::mt19937_64 random(13);
     const Skin skin(61, {manners().begin() + 11, manners().end()}, 5, 3);
     const Model model = modelOf(skin);
@@ -289,7 +278,7 @@ TEST_P(Kernel, TakesLongChainsAndManyPartialJoints) {
 
 /// Some hundred joints, and chains with more full joints between the partial ones than are
 /// processed at once.
-TEST_P(Kernel, TakesMoreJointsThanAreKeptAtATime) {
+TEST_P(Kernel, HandlesMoreJointsThanFitInOneSection) {
     std::mt19937_64 random(17);
     constexpr std::size_t kJoints = 300;
     std::vector<Manner> manner = {{"all full", std::vector<char>(kJoints, 'f')}};
@@ -312,22 +301,11 @@ TEST_P(Kernel, TakesMoreJointsThanAreKeptAtATime) {
     ASSERT_TRUE(pose.set(skinning.data(), skinning.size()));
     deform(skin, pose, model, Streams::NormalsAndTangents);
     deform(skin, randomPose(skin.binding, 0.0, random, 1e-3, 0.003), model, Streams::Normals);
-    if (!GetParam().target) return; // the reference is not divided into parts
-    const std::size_t count = skin.positions.size();
-    std::vector<glm::vec3> whole(count), parts(count);
-    osgSkin::DeformJob job;
-    job.model = model.get();
-    job.pose = &pose;
-    job.positions = whole.data();
-    job.positionCount = count;
-    ASSERT_TRUE(job.run());
-    job.positions = parts.data();
-    ASSERT_GE(job.partCount(), 2u);
-    for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
-    EXPECT_EQ(parts, whole);
+    if (isReference()) return; // it is not divided into parts
+    EXPECT_EQ(test::deformInParts(*model, pose).positions, osgSkin::deform(*model, pose).positions);
 }
 
-TEST_P(Kernel, TurnsByPiAndBack) {
+TEST_P(Kernel, RotatesByHalfATurnAndBack) {
     const Skin skin(4, {manners().begin() + 2, manners().begin() + 4}, 17, 7);
     const Model model = modelOf(skin);
     osgSkin::Pose pose(skin.binding.joints);
@@ -344,220 +322,21 @@ TEST_P(Kernel, TurnsByPiAndBack) {
         }
 }
 
-TEST_P(Kernel, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference is not divided into parts
+TEST_P(Kernel, PartsMatchTheWhole) {
+    if (isReference()) return; // it is not divided into parts
     std::mt19937_64 random(14);
     const std::vector<Manner> upToFour(manners().begin(), manners().begin() + 11);
     for (const Skin& skin : {Skin(5, upToFour, 1201, 9), inBestOrder(Skin(5, upToFour, 1201, 9))}) {
         const Model model = modelOf(skin);
         const osgSkin::Pose pose = randomPose(skin.binding, 0.5, random);
-        const std::size_t count = skin.positions.size();
-        std::vector<glm::vec3> whole(count), parts(count), normals(count), partNormals(count);
-        osgSkin::DeformJob job;
-        job.model = model.get();
-        job.pose = &pose;
-        job.positions = whole.data();
-        job.normals = normals.data();
-        job.positionCount = job.normalCount = count;
-        ASSERT_TRUE(job.run());
-        job.positions = parts.data();
-        job.normals = partNormals.data();
-        ASSERT_GE(job.partCount(), 3u);
-        for (std::size_t part = job.partCount(); part-- > 0;) job.runPart(part);
-        EXPECT_EQ(parts, whole);
-        EXPECT_EQ(partNormals, normals);
-        job.runPart(job.partCount()); // no such part
-        EXPECT_EQ(parts, whole);
+        osgSkin::DeformOptions options;
+        options.normals = true;
+        const auto whole = osgSkin::deform(*model, pose, options);
+        const auto parts = test::deformInParts(*model, pose, options);
+        EXPECT_EQ(parts.positions, whole.positions);
+        EXPECT_EQ(parts.normals, whole.normals);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(test::ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, Kernel, testing::ValuesIn(test::allTargets()),
                          [](const auto& tested) { return tested.param.name; });
-
-namespace {
-
-/// A tube whose vertices are in the worst order: those of a ring are far apart.
-test::Tube shuffled() {
-    test::Tube tube;
-    const std::size_t count = tube.positions.size();
-    const test::Tube straight = tube;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t from = i * 7 % count; // coprime
-        tube.positions[i] = straight.positions[from];
-        tube.normals[i] = straight.normals[from];
-        tube.source[i] = straight.source[from];
-    }
-    return tube;
-}
-
-} // namespace
-
-TEST(VertexOrder, IsThatOfTheModelMadeInIt) {
-    const test::Tube tube = shuffled();
-    const auto made =
-        SkinModel::createInBestOrder(tube.binding, tube.positions, tube.normals, tube.source);
-    ASSERT_EQ(made.order, SkinModel::bestOrder(tube.binding, tube.source));
-    std::vector<std::uint32_t> all = made.order;
-    EXPECT_FALSE(std::is_sorted(all.begin(), all.end()));
-    std::sort(all.begin(), all.end());
-    for (std::uint32_t v = 0; v < all.size(); ++v) ASSERT_EQ(all[v], v) << "not each vertex once";
-
-    const auto given = SkinModel::create(tube.binding, tube.positions, tube.normals, tube.source);
-    ASSERT_EQ(made.model->groups().size(), given->groups().size());
-    EXPECT_GT(made.model->groups().size(), 3u);
-    ASSERT_EQ(made.model->ratios().size(), given->ratios().size());
-    for (std::size_t r = 0; r < given->ratios().size(); ++r) {
-        EXPECT_EQ(made.model->ratios()[r].bend, given->ratios()[r].bend);
-        EXPECT_EQ(made.model->ratios()[r].twist, given->ratios()[r].twist);
-    }
-    for (std::uint32_t v = 0; v < made.order.size(); ++v) {
-        EXPECT_EQ(made.model->order()[v], v) << "a vertex is written astray";
-        EXPECT_EQ(given->order()[v], made.order[v]);
-        EXPECT_EQ(made.model->positions()[v], tube.positions[made.order[v]]);
-        EXPECT_EQ(made.model->normals()[v], tube.normals[made.order[v]]);
-    }
-}
-
-TEST(VertexOrder, SmallGroupsJoinOthersByRatiosOfNothingAndAll) {
-    const test::Tube tube(25, 3);
-    std::set<std::vector<std::uint32_t>> signatures;
-    for (const std::uint32_t v : tube.source) {
-        std::vector<std::uint32_t> signature;
-        for (std::uint32_t i = tube.binding.firstInfluence[v];
-             i < tube.binding.firstInfluence[v + 1]; ++i)
-            signature.push_back(2 * tube.binding.influences[i].joint +
-                                (tube.binding.influences[i].isPartial() ? 1 : 0));
-        signatures.insert(signature);
-    }
-    const auto model = tube.model();
-    EXPECT_LT(model->groups().size(), signatures.size());
-    std::size_t seen = 0;
-    for (const SkinModel::Group& group : model->groups()) {
-        const SkinModel::Ratio* ratio = model->ratios().data() + group.firstRatio;
-        for (std::uint32_t row = 0; row < group.vertexCount; ++row, ++seen) {
-            const std::uint32_t bound = tube.source[model->order()[group.firstVertex + row]];
-            std::vector<Influence> has; // in the model
-            for (std::uint32_t k = 0; k < group.linkCount; ++k) {
-                const SkinModel::Link& link = model->links()[group.firstLink + k];
-                const SkinModel::Ratio own = link.partial ? *ratio++ : SkinModel::Ratio{1.0f, 1.0f};
-                if (own.bend != 0.0f || own.twist != 0.0f)
-                    has.push_back({link.joint, own.bend, own.twist});
-            }
-            const std::uint32_t first = tube.binding.firstInfluence[bound];
-            ASSERT_EQ(has.size(), tube.binding.firstInfluence[bound + 1] - first);
-            for (std::size_t i = 0; i < has.size(); ++i) {
-                EXPECT_EQ(has[i].joint, tube.binding.influences[first + i].joint);
-                EXPECT_EQ(has[i].bend, tube.binding.influences[first + i].bend);
-                EXPECT_EQ(has[i].twist, tube.binding.influences[first + i].twist);
-            }
-        }
-    }
-    EXPECT_EQ(seen, tube.source.size());
-}
-
-/// As painted weights may be: hardly any two of 30,000 vertices follow the same three of 60 joints.
-TEST(VertexOrder, ManySignaturesAreGroupedInNoTime) {
-    constexpr std::uint32_t kJoints = 60;
-    Binding binding;
-    for (std::uint32_t j = 0; j < kJoints; ++j) {
-        BoundJoint joint;
-        joint.name = std::to_string(j);
-        joint.parent = j == 0 ? -1 : 0;
-        joint.boneAxis = joint.twistAxis = {0.0, 1.0, 0.0};
-        binding.joints.push_back(joint);
-    }
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> source;
-    binding.firstInfluence = {0};
-    for (std::uint32_t a = 1; a < kJoints; ++a)
-        for (std::uint32_t b = a + 1; b < kJoints; ++b)
-            for (std::uint32_t c = b + 1; c < kJoints; ++c) {
-                binding.influences.push_back({0, 1.0f, 1.0f});
-                for (const std::uint32_t joint : {a, b, c})
-                    binding.influences.push_back({joint, 0.3f, 0.3f});
-                binding.firstInfluence.push_back(
-                    static_cast<std::uint32_t>(binding.influences.size()));
-                source.push_back(static_cast<std::uint32_t>(positions.size()));
-                positions.emplace_back(0.0f);
-            }
-    binding.regions.assign(positions.size(), 0);
-    const std::vector<glm::vec3> normals(positions.size(), glm::vec3(0, 1, 0));
-    const auto model = SkinModel::create(binding, positions, normals, source);
-    EXPECT_EQ(model->vertexCount(), positions.size());
-    EXPECT_LT(model->groups().size(), positions.size() / 2);
-}
-
-TEST(VertexOrder, RefusesWhatCreateRefuses) {
-    test::Tube tube;
-    tube.normals.pop_back();
-    EXPECT_THROW(
-        SkinModel::createInBestOrder(tube.binding, tube.positions, tube.normals, tube.source),
-        Error);
-    tube = test::Tube();
-    tube.source.back() = static_cast<std::uint32_t>(tube.binding.vertexCount());
-    EXPECT_THROW(
-        SkinModel::createInBestOrder(tube.binding, tube.positions, tube.normals, tube.source),
-        Error);
-}
-
-TEST(Influence, IsFractionalOrPartial) {
-    struct Case {
-        float bend, twist;
-        bool fractional, partial;
-    };
-    for (const Case& c : {Case{0.0f, 0.0f, false, false}, Case{1.0f, 1.0f, false, false},
-                          Case{0.0f, 1.0f, false, true}, Case{1.0f, 0.0f, false, true},
-                          Case{0.5f, 0.5f, true, true}, Case{1.0f, 0.25f, true, true},
-                          Case{1e-30f, 0.0f, true, true}}) {
-        const Influence influence{0, c.bend, c.twist};
-        EXPECT_EQ(influence.isFractional(), c.fractional) << c.bend << " " << c.twist;
-        EXPECT_EQ(influence.isPartial(), c.partial) << c.bend << " " << c.twist;
-    }
-}
-
-namespace {
-
-/// Joints from their names, each after its parent's: "Hips Spine<Hips ...".
-std::vector<BoundJoint> makeJoints(const std::string& tree) {
-    std::vector<BoundJoint> joints;
-    std::map<std::string, int> index;
-    std::istringstream words(tree);
-    for (std::string word; words >> word;) {
-        const std::size_t at = word.find('<');
-        BoundJoint joint;
-        joint.name = word.substr(0, at);
-        joint.parent = at == std::string::npos ? -1 : index.at(word.substr(at + 1));
-        index[joint.name] = static_cast<int>(joints.size());
-        joints.push_back(joint);
-    }
-    return joints;
-}
-
-std::string orderOf(const std::string& tree) {
-    const std::vector<BoundJoint> joints = makeJoints(tree);
-    std::string result;
-    for (const std::uint32_t j : productOrder(joints))
-        result += (result.empty() ? "" : " ") + joints[j].name;
-    return result;
-}
-
-} // namespace
-
-TEST(ProductOrder, DoesNotFollowTheFiles) {
-    const std::string expected = "Hips Spine Neck LArm LHand RArm RHand LLeg LFoot RLeg RFoot";
-    EXPECT_EQ(orderOf("Hips Spine<Hips Neck<Spine LArm<Spine LHand<LArm RArm<Spine RHand<RArm "
-                      "LLeg<Hips LFoot<LLeg RLeg<Hips RFoot<RLeg"),
-              expected);
-    EXPECT_EQ(orderOf("Hips RLeg<Hips LLeg<Hips RFoot<RLeg LFoot<LLeg Spine<Hips RArm<Spine "
-                      "LArm<Spine Neck<Spine RHand<RArm LHand<LArm"),
-              expected);
-}
-
-TEST(ProductOrder, LongChainsAndNoneAreOrdered) {
-    EXPECT_TRUE(productOrder({}).empty());
-    std::vector<BoundJoint> chain(200000);
-    for (std::size_t j = 0; j < chain.size(); ++j) chain[j].parent = static_cast<int>(j) - 1;
-    const std::vector<std::uint32_t> order = productOrder(chain);
-    ASSERT_EQ(order.size(), chain.size());
-    EXPECT_EQ(order.back(), chain.size() - 1);
-}

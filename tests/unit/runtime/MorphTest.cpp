@@ -5,8 +5,9 @@
 #include "SomeCorrectives.h"
 #include "SomeMorphs.h"
 #include "TubeSkin.h"
+#include "UpdateAt.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkin/MorphedRest>
 #include <osgSkin/SetMorph>
@@ -14,7 +15,6 @@
 
 #include <gtest/gtest.h>
 #include <osgAnimation/BasicAnimationManager>
-#include <osgUtil/UpdateVisitor>
 
 #include <cmath>
 #include <limits>
@@ -40,27 +40,20 @@ test::Tube moved(test::Tube tube, const std::vector<MorphTarget>& targets,
     return tube;
 }
 
-struct Posed {
-    Posed(const osgSkin::SkinModel& model, const osgSkin::MorphedRest* morphed, bool byReference)
-        : positions(model.vertexCount()), normals(positions.size()) {
-        osgSkin::Pose pose(model.joints(), model.inputs().size());
-        std::mt19937_64 random(5);
-        std::vector<glm::dquat> turns;
-        for (std::size_t j = 0; j < pose.size(); ++j) turns.push_back(test::randomRotation(random));
-        const auto skinning = test::skinningFrom(model.joints(), turns, {0.3, -0.2, 0.5});
-        EXPECT_TRUE(pose.set(skinning.data(), skinning.size()));
-        osgSkin::DeformJob job;
-        job.model = &model;
-        job.pose = &pose;
-        job.morphed = morphed;
-        job.positions = positions.data();
-        job.normals = normals.data();
-        job.positionCount = job.normalCount = positions.size();
-        EXPECT_TRUE(byReference ? job.runReference() : job.run());
-    }
-
-    std::vector<glm::vec3> positions, normals;
-};
+/// The model in one pose, of random rotations.
+osgSkin::DeformedVertices posed(const osgSkin::SkinModel& model,
+                                const osgSkin::MorphedRest* morphed, bool byReference) {
+    std::mt19937_64 random(5);
+    std::vector<glm::dquat> turns;
+    for (std::size_t j = 0; j < model.joints().size(); ++j)
+        turns.push_back(test::randomRotation(random));
+    osgSkin::DeformOptions options;
+    options.normals = true;
+    options.morphed = morphed;
+    options.reference = byReference;
+    const auto skinning = test::skinningFrom(model.joints(), turns, {0.3, -0.2, 0.5});
+    return osgSkin::deform(model, skinning, options);
+}
 
 float farthest(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
     float result = 0.0f;
@@ -89,7 +82,7 @@ std::vector<glm::vec3> drawn(const DeformableSkin& skin) {
 } // namespace
 
 /// Vertices out of the deformation's order, and partial last blocks, are covered by 3 sizes.
-TEST(Morph, DeformsAsASkinOfMovedRestVertices) {
+TEST(Morph, MatchesASkinWithMovedRestVertices) {
     for (const int rings : {3, 9, 25})
         for (const bool byReference : {false, true}) {
             const test::Tube tube(rings, 7);
@@ -98,30 +91,30 @@ TEST(Morph, DeformsAsASkinOfMovedRestVertices) {
             osgSkin::MorphedRest rest(model, MorphTargets::create(targets, model->vertexCount()));
             rest.set({0.2f, 0.9f, 0.0f}); // leaves nothing behind
             rest.set(kWeights);
-            const Posed is(*model, &rest, byReference);
-            const Posed expected(*moved(tube, targets, kWeights).model(), nullptr, true);
+            const auto is = posed(*model, &rest, byReference);
+            const auto expected = posed(*moved(tube, targets, kWeights).model(), nullptr, true);
             EXPECT_LT(farthest(is.positions, expected.positions), 6e-6f);
             EXPECT_LT(farthest(is.normals, expected.normals), 1e-5f);
         }
 }
 
 /// Correctives and the tilt of bent skin are added to a morphed one, by kernel and reference alike.
-TEST(Morph, KernelAgreesWithTheReferenceOnShapedSkin) {
+TEST(Morph, KernelMatchesTheReferenceWithCorrectives) {
     test::SlopedTube tube;
     tube.binding.correctives = test::someCorrectives(tube.binding, 0.05, 7, true);
     const auto model = tube.model();
     const auto targets = test::someMorphs(model->vertexCount(), 0.1);
     osgSkin::MorphedRest rest(model, MorphTargets::create(targets, model->vertexCount()));
     rest.set(kWeights);
-    const Posed kernel(*model, &rest, false), reference(*model, &rest, true);
-    const Posed without(*model, nullptr, true);
+    const auto kernel = posed(*model, &rest, false), reference = posed(*model, &rest, true);
+    const auto without = posed(*model, nullptr, true);
     EXPECT_LT(farthest(kernel.positions, reference.positions), 6e-6f);
     EXPECT_LT(farthest(kernel.normals, reference.normals), 2e-5f);
     EXPECT_GT(farthest(without.positions, reference.positions), 0.05f);
     EXPECT_GT(farthest(without.normals, reference.normals), 0.05f);
 }
 
-TEST(Morph, SkinTakesWeightsAndGivesThemBack) {
+TEST(Morph, SkinSetsAndReturnsWeights) {
     const osg::ref_ptr<DeformableSkin> skin = morphSkin();
     const std::vector<glm::vec3> before = drawn(*skin);
     EXPECT_FALSE(skin->isMorphed());
@@ -145,7 +138,7 @@ TEST(Morph, SkinTakesWeightsAndGivesThemBack) {
     EXPECT_EQ(copy->getMorph("smile"), 0.7f);
 }
 
-TEST(Morph, RestVerticesAreThoseOfTheInitialWeights) {
+TEST(Morph, RestVerticesIncludeInitialWeights) {
     const osg::ref_ptr<DeformableSkin> skin = test::makeSkin();
     const std::vector<glm::vec3> rest = drawn(*skin);
     auto targets = test::someMorphs(rest.size(), 0.1);
@@ -158,7 +151,7 @@ TEST(Morph, RestVerticesAreThoseOfTheInitialWeights) {
     EXPECT_LT(glm::distance(drawn(*skin)[v], rest[v] + 0.75f * targets[1].positions[3]), 2e-6f);
 }
 
-TEST(Morph, AnotherSkinTakesTargetsThatDoNotFitAway) {
+TEST(Morph, SettingAnotherSkinRemovesMismatchedTargets) {
     const osg::ref_ptr<DeformableSkin> skin = morphSkin();
     skin->setMorph("open", 1.0f);
     test::Tube shorter(9);
@@ -168,7 +161,7 @@ TEST(Morph, AnotherSkinTakesTargetsThatDoNotFitAway) {
     EXPECT_EQ(drawn(*skin).size(), shorter.positions.size());
 }
 
-TEST(Morph, TargetsThatDoNotFitAreRefused) {
+TEST(Morph, RejectsInvalidTargets) {
     const auto good = test::someMorphs(30, 0.1);
     const auto refused = [&](const auto& change) {
         auto targets = good;
@@ -188,7 +181,7 @@ TEST(Morph, TargetsThatDoNotFitAreRefused) {
 }
 
 /// A face and its teeth are two skins.
-TEST(Morph, OneCallSetsAllSkinsOfAScene) {
+TEST(Morph, SetsAllSkinsOfAScene) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     const osg::ref_ptr<DeformableSkin> face = morphSkin(), teeth = morphSkin("open");
     scene->addChild(face);
@@ -205,7 +198,7 @@ TEST(Morph, OneCallSetsAllSkinsOfAScene) {
     EXPECT_EQ(osgSkin::getMorph(*scene, "wink"), 0.0f);
 }
 
-TEST(Morph, ChannelsDriveTargetsWhileTheyPlay) {
+TEST(Morph, FollowsPlayingChannels) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     const osg::ref_ptr<osg::Group> below = new osg::Group;
     const osg::ref_ptr<DeformableSkin> skin = morphSkin();
@@ -226,13 +219,7 @@ TEST(Morph, ChannelsDriveTargetsWhileTheyPlay) {
         new osgAnimation::BasicAnimationManager;
     manager->registerAnimation(clip);
     scene->setUpdateCallback(manager);
-    const auto update = [&](double time) {
-        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-        stamp->setSimulationTime(time);
-        osgUtil::UpdateVisitor visitor;
-        visitor.setFrameStamp(stamp);
-        scene->accept(visitor);
-    };
+    const auto update = [&](double time) { test::updateAt(*scene, time); };
     skin->setMorph("smile", 0.9f);
     skin->setMorph("frown", 0.8f);
     update(0.0);

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "FindNodes.h"
-#include "Tube.h"
+#include "TubeSkin.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/RigidPart>
@@ -12,7 +13,6 @@
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
-#include <osg/FrameStamp>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osgAnimation/BasicAnimationManager>
@@ -69,16 +69,9 @@ struct Character {
 
     explicit Character(const osgSkin::Clip& clip) {
         const test::Tube tube(41, 12);
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        const osg::ref_ptr<osg::Vec3Array> vertices =
-            new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-        const osg::ref_ptr<osg::Vec3Array> normals =
-            new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-        for (const glm::vec3& p : tube.positions) vertices->push_back({p.x, p.y, p.z});
-        for (const glm::vec3& n : tube.normals) normals->push_back({n.x, n.y, n.z});
-        geometry->setVertexArray(vertices);
-        geometry->setNormalArray(normals);
-        skin->setSkin(geometry, tube.model());
+        const osg::ref_ptr<osg::Geometry> points = test::makeGeometry(tube);
+        points->removePrimitiveSet(0); // what is drawn is for a test to add
+        skin->setSkin(points, tube.model());
         skin->setUpdateCallback(new osgSkin::UpdateDeformableSkin);
         osgAnimation::Bone* bone = findBone(*skeleton, "end");
         rigid = new osgSkin::RigidPart(new osg::Geometry, *bone);
@@ -105,14 +98,7 @@ struct Character {
         }
         return nullptr;
     }
-    void update(double time) const {
-        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-        stamp->setSimulationTime(time);
-        stamp->setFrameNumber(static_cast<unsigned int>(1000.0 * time));
-        osgUtil::UpdateVisitor visitor;
-        visitor.setFrameStamp(stamp);
-        scene->accept(visitor);
-    }
+    void update(double time) const { test::updateAt(*scene, time); }
 };
 
 /// The only skin below a node.
@@ -122,11 +108,10 @@ inline osgSkin::DeformableSkin& skinOf(osg::Node& node) {
 
 using Vertices = std::vector<osg::Vec3>;
 
+using test::verticesOf;
+
 inline Vertices verticesOf(const osg::Geometry* geometry) {
     return static_cast<const osg::Vec3Array&>(*geometry->getVertexArray()).asVector();
-}
-inline Vertices verticesOf(const osgSkin::DeformableSkin& skin) {
-    return verticesOf(skin.getDeformedGeometry());
 }
 
 inline double difference(const Vertices& a, const Vertices& b) {

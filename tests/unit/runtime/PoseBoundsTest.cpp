@@ -8,7 +8,7 @@
 #include "TubeSkin.h"
 #include "Turns.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/MorphTargets>
@@ -33,17 +33,6 @@ using osgSkin::Pose;
 using osgSkin::PoseBounds;
 using osgSkin::SkinModel;
 
-std::vector<glm::vec3> deformed(const SkinModel& model, const Pose& pose) {
-    std::vector<glm::vec3> positions(model.vertexCount());
-    osgSkin::DeformJob job;
-    job.model = &model;
-    job.pose = &pose;
-    job.positions = positions.data();
-    job.positionCount = positions.size();
-    EXPECT_TRUE(job.run());
-    return positions;
-}
-
 double volumeOf(const PoseBounds& box) {
     const glm::dvec3 size = box.high - box.low;
     return size.x * size.y * size.z;
@@ -55,7 +44,7 @@ double volumeOf(const PoseBounds& box) {
 double looseness(const SkinModel& model, const Pose& pose) {
     PoseBounds tight{glm::vec3(std::numeric_limits<float>::max()),
                      glm::vec3(-std::numeric_limits<float>::max())};
-    for (const glm::vec3& p : deformed(model, pose)) {
+    for (const glm::vec3& p : deform(model, pose).positions) {
         tight.low = glm::min(tight.low, p);
         tight.high = glm::max(tight.high, p);
     }

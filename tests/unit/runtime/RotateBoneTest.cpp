@@ -68,7 +68,7 @@ class Reach : public testing::TestWithParam<Case> {};
 
 } // namespace
 
-TEST_P(Reach, PutsTheEndAtTheTargetOrTowardsIt) {
+TEST_P(Reach, MovesTheEndToOrTowardsTheTarget) {
     const auto& [name, limb, way, pole, reaches] = GetParam();
     const LimbRotations found =
         reachRotations(limb.first, limb.middle, limb.end, limb.first + way, pole);
@@ -82,7 +82,7 @@ TEST_P(Reach, PutsTheEndAtTheTargetOrTowardsIt) {
         expectNear(moved.end, limb.first + way * (distance / way.length()), 1e-7);
 }
 
-TEST_P(Reach, TurnsTheMiddleToThePole) {
+TEST_P(Reach, BendsTowardsThePole) {
     const auto& [name, limb, way, pole, reaches] = GetParam();
     const Vec3d side = pole - way * ((pole * way) / way.length2());
     if (!reaches || !(side.length() > 1e-9)) return; // no pole, or along the limb
@@ -94,7 +94,7 @@ TEST_P(Reach, TurnsTheMiddleToThePole) {
     expectNear(bent / bent.length(), side / side.length());
 }
 
-TEST_P(Reach, StaysInThePlaneInWhichItIsBent) {
+TEST_P(Reach, KeepsTheBendPlaneWithoutAPole) {
     const auto& [name, limb, way, pole, reaches] = GetParam();
     const Vec3d plane = (limb.middle - limb.first) ^ (limb.end - limb.middle);
     if (pole.length() > 0.0 || !(plane.length() > 1e-9)) return;
@@ -108,7 +108,7 @@ TEST_P(Reach, StaysInThePlaneInWhichItIsBent) {
 INSTANTIATE_TEST_SUITE_P(Cases, Reach, testing::ValuesIn(kCases),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST(ReachRotations, AreNoneForNumbersThatCannotBeUsed) {
+TEST(ReachRotations, AreIdentitiesForInvalidInput) {
     const Vec3d nan(kNan, 0, 0), far(1e308, 1e308, 0);
     const std::vector<Limb> limbs{{nan, Vec3d(1, 0, 0), Vec3d(2, 0, 0)},
                                   {Vec3d(), nan, Vec3d(2, 0, 0)},
@@ -169,7 +169,7 @@ struct Arm {
 
 } // namespace
 
-TEST(RotateBone, TurnsABoneAboutItsJointAndMovesTheBonesBelow) {
+TEST(RotateBone, MovesTheBonesBelow) {
     Arm arm;
     const Vec3d shoulder = Arm::joint(*arm.upper), hand = Arm::joint(*arm.hand);
     const Quat turn(0.7, Vec3d(0, 0, 1));
@@ -181,7 +181,7 @@ TEST(RotateBone, TurnsABoneAboutItsJointAndMovesTheBonesBelow) {
     EXPECT_TRUE(arm.isConsistent());
 }
 
-TEST(RotateBone, ReachPutsAHandAtAPoint) {
+TEST(RotateBone, ReachMovesAHandToAPoint) {
     Arm arm;
     const Vec3d target = Arm::joint(*arm.upper) + Vec3d(0.1, -0.3, 0.2);
     EXPECT_TRUE(osgSkin::reach(*arm.upper, *arm.lower, *arm.hand, target, Vec3d(0, 0, -1)));
@@ -210,7 +210,7 @@ TEST(RotateBone, LookAtFacesAPointWithinItsLimit) {
     EXPECT_TRUE(arm.isConsistent());
 }
 
-TEST(RotateBone, LookAtDoesNothingForNumbersThatCannotBeUsed) {
+TEST(RotateBone, LookAtIgnoresInvalidInput) {
     Arm arm;
     const osg::Matrixd before = arm.hand->getMatrix();
     const Vec3d joint = Arm::joint(*arm.hand), up(0, 1, 0);

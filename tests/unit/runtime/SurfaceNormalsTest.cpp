@@ -8,7 +8,6 @@
 #include "Tube.h"
 #include "Turns.h"
 
-#include <osgSkin/DeformJob>
 
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
@@ -29,24 +28,13 @@ glm::dvec4 restTangentAt(const test::SlopedTube& tube, std::size_t v) {
     return {1.5 * glm::normalize(around + glm::dvec3(0, 0.7, 0)), v % 3 == 0 ? -1.0 : 1.0};
 }
 
-/// A posed skin with all outputs of a job.
-struct Posed {
-    std::vector<glm::vec3> positions, normals;
-    std::vector<glm::vec4> tangents;
-    osgSkin::DeformJob job;
-
-    Posed(const osgSkin::SkinModel& model, const osgSkin::SkinTangents* rest,
-          const osgSkin::Pose& pose)
-        : positions(model.vertexCount()), normals(positions), tangents(positions.size()) {
-        job.model = &model;
-        job.pose = &pose;
-        job.positions = positions.data();
-        job.normals = normals.data();
-        job.restTangents = rest;
-        job.tangents = rest ? tangents.data() : nullptr;
-        job.positionCount = job.normalCount = job.tangentCount = positions.size();
-    }
-};
+/// Normals, and tangents where there are rest tangents.
+osgSkin::DeformOptions normalsAnd(const osgSkin::SkinTangents* restTangents) {
+    osgSkin::DeformOptions options;
+    options.normals = true;
+    options.restTangents = restTangents;
+    return options;
+}
 
 osg::ref_ptr<const osgSkin::SkinTangents> tangentsOf(const test::SlopedTube& tube,
                                                      const osgSkin::SkinModel& model) {
@@ -81,11 +69,24 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-class SurfaceNormals : public test::EachTarget {};
+class SurfaceNormals : public test::EachTarget {
+protected:
+    osgSkin::DeformedVertices posed(const osgSkin::SkinModel& model, const osgSkin::Pose& pose,
+                                    const osgSkin::SkinTangents* restTangents = nullptr) const {
+        return deform(model, pose, normalsAnd(restTangents));
+    }
+};
+
+osgSkin::DeformedVertices byReference(const osgSkin::SkinModel& model, const osgSkin::Pose& pose,
+                                      const osgSkin::SkinTangents* restTangents) {
+    osgSkin::DeformOptions options = normalsAnd(restTangents);
+    options.reference = true;
+    return osgSkin::deform(model, pose, options);
+}
 
 } // namespace
 
-TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
+TEST_P(SurfaceNormals, MatchThePosedSurface) {
     std::mt19937_64 random(11);
     for (const bool moved : {false, true})
         for (int sides = 1; sides <= 40; sides += 3) {
@@ -96,34 +97,31 @@ TEST_P(SurfaceNormals, AreThoseOfThePosedSurface) {
             ASSERT_TRUE(model->hasSurfaceNormals());
             const auto rest = tangentsOf(tube, *model);
             const osgSkin::Pose pose = poseOf(tube.binding, random, moved);
-            Posed posed(*model, rest.get(), pose);
-            ASSERT_TRUE(run(posed.job));
-            Posed alone(*model, nullptr, pose); // normals without tangents
-            ASSERT_TRUE(run(alone.job));
-            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
+            const auto is = posed(*model, pose, rest.get());
+            const auto alone = posed(*model, pose); // normals without tangents
+            for (std::size_t v = 0; v < is.normals.size(); ++v) {
                 const glm::dvec3 x(tube.positions[v]), n(tube.normals[v]);
                 const glm::dvec3 around = glm::cross(glm::dvec3(0, 1, 0), n);
                 const glm::dvec3 normal = glm::cross(tube.posedWay(pose, x, around),
                                                      tube.posedWay(pose, x, glm::cross(n, around)));
-                const glm::dvec3 is(posed.normals[v]);
-                ASSERT_LE(angleBetween(normal, is), kTolerance) << v;
-                ASSERT_NEAR(glm::length(is), 1.0, 1e-5);
-                ASSERT_LE(glm::distance(posed.normals[v], alone.normals[v]), 1e-5f);
+                ASSERT_LE(angleBetween(normal, is.normals[v]), kTolerance) << v;
+                ASSERT_NEAR(glm::length(is.normals[v]), 1.0, 1e-5);
+                ASSERT_LE(glm::distance(is.normals[v], alone.normals[v]), 1e-5f);
 
                 const glm::dvec4 restTangent = restTangentAt(tube, v);
-                const glm::dvec3 tangent(posed.tangents[v]);
+                const glm::dvec3 tangent(is.tangents[v]);
                 ASSERT_LE(angleBetween(tube.posedWay(pose, x, glm::dvec3(restTangent)), tangent),
                           2.0 * kTolerance)
                     << v;
                 ASSERT_NEAR(glm::length(tangent), 1.5, 1e-4);
-                ASSERT_NEAR(glm::dot(tangent, is), 0.0, 1e-4);
-                ASSERT_EQ(posed.tangents[v].w, float(restTangent.w));
+                ASSERT_NEAR(glm::dot(tangent, glm::dvec3(is.normals[v])), 0.0, 1e-4);
+                ASSERT_EQ(is.tangents[v].w, float(restTangent.w));
             }
         }
 }
 
 /// At the limits of bone scale the squared length of a direction is beyond single precision.
-TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
+TEST_P(SurfaceNormals, HaveUnitLengthAtAnyScale) {
     const test::SlopedTube tube;
     const auto model = tube.model();
     const auto rest = tangentsOf(tube, *model);
@@ -133,20 +131,18 @@ TEST_P(SurfaceNormals, AreUnitWhateverTheScale) {
             const std::vector<osgSkin::JointMap> maps = tube.scaledMaps(scaled, scale);
             osgSkin::Pose pose(tube.binding.joints);
             ASSERT_TRUE(pose.set(maps.data(), maps.size()));
-            Posed posed(*model, rest.get(), pose);
-            ASSERT_TRUE(run(posed.job));
-            Posed expected(*model, rest.get(), pose);
-            ASSERT_TRUE(expected.job.runReference());
-            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
-                ASSERT_LE(angleBetween(expected.normals[v], posed.normals[v]), kTolerance) << v;
-                ASSERT_NEAR(glm::length(posed.normals[v]), 1.0, 1e-5) << v;
-                ASSERT_NEAR(glm::length(glm::dvec3(posed.tangents[v])), 1.5, 1e-4) << v;
+            const auto is = posed(*model, pose, rest.get());
+            const auto expected = byReference(*model, pose, rest.get());
+            for (std::size_t v = 0; v < is.normals.size(); ++v) {
+                ASSERT_LE(angleBetween(expected.normals[v], is.normals[v]), kTolerance) << v;
+                ASSERT_NEAR(glm::length(is.normals[v]), 1.0, 1e-5) << v;
+                ASSERT_NEAR(glm::length(glm::dvec3(is.tangents[v])), 1.5, 1e-4) << v;
             }
         }
 }
 
 /// Joints without gradients, before and after one that has some.
-TEST_P(SurfaceNormals, AreTheReferencesWhereSomeJointsRatiosAreEven) {
+TEST_P(SurfaceNormals, MatchTheReferenceIfSomeJointsHaveNoGradients) {
     std::mt19937_64 random(13);
     for (const bool moved : {false, true})
         for (const std::uint32_t even : {1u, 2u}) {
@@ -158,21 +154,20 @@ TEST_P(SurfaceNormals, AreTheReferencesWhereSomeJointsRatiosAreEven) {
             ASSERT_TRUE(model->hasSurfaceNormals());
             const auto rest = tangentsOf(tube, *model);
             const osgSkin::Pose pose = poseOf(tube.binding, random, moved);
-            Posed posed(*model, rest.get(), pose), expected(*model, rest.get(), pose);
-            ASSERT_TRUE(run(posed.job));
-            ASSERT_TRUE(expected.job.runReference());
-            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
-                ASSERT_LE(glm::distance(posed.positions[v], expected.positions[v]), 1e-4f) << v;
-                ASSERT_LE(angleBetween(posed.normals[v], expected.normals[v]), kTolerance) << v;
+            const auto is = posed(*model, pose, rest.get());
+            const auto expected = byReference(*model, pose, rest.get());
+            for (std::size_t v = 0; v < is.normals.size(); ++v) {
+                ASSERT_LE(glm::distance(is.positions[v], expected.positions[v]), 1e-4f) << v;
+                ASSERT_LE(angleBetween(is.normals[v], expected.normals[v]), kTolerance) << v;
                 ASSERT_LE(
-                    angleBetween(glm::dvec3(posed.tangents[v]), glm::dvec3(expected.tangents[v])),
+                    angleBetween(glm::dvec3(is.tangents[v]), glm::dvec3(expected.tangents[v])),
                     2.0 * kTolerance)
                     << v;
             }
         }
 }
 
-TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
+TEST_P(SurfaceNormals, DifferFromRotatedNormals) {
     std::mt19937_64 random(12);
     const test::SlopedTube tube(25, 18);
     test::SlopedTube plain = tube;
@@ -180,8 +175,7 @@ TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
     const auto model = tube.model(), turned = plain.model();
     EXPECT_FALSE(turned->hasSurfaceNormals());
     const osgSkin::Pose pose = poseOf(tube.binding, random, false);
-    Posed with(*model, nullptr, pose), without(*turned, nullptr, pose);
-    ASSERT_TRUE(run(with.job) && run(without.job));
+    const auto with = posed(*model, pose), without = posed(*turned, pose);
     EXPECT_EQ(with.positions, without.positions);
     double most = 0.0;
     for (std::size_t v = 0; v < with.normals.size(); ++v)
@@ -189,7 +183,7 @@ TEST_P(SurfaceNormals, DifferFromTurnedOnesWherePositionsDoNot) {
     EXPECT_GE(glm::degrees(most), 10.0);
 }
 
-TEST_P(SurfaceNormals, KeepTheirPrecisionBesideASteepGradient) {
+TEST_P(SurfaceNormals, KeepPrecisionBesideASteepGradient) {
     std::mt19937_64 random(14);
     const test::SlopedTube tube(25, 18);
     test::SlopedTube steep = tube;
@@ -199,28 +193,26 @@ TEST_P(SurfaceNormals, KeepTheirPrecisionBesideASteepGradient) {
         steep.binding.gradients[i].bend = glm::vec3(1e6f, 1e6f, -1e6f);
     const auto model = tube.model(), other = steep.model();
     const osgSkin::Pose pose = poseOf(tube.binding, random, false);
-    Posed without(*model, nullptr, pose), with(*other, nullptr, pose);
-    ASSERT_TRUE(run(without.job) && run(with.job));
+    const auto without = posed(*model, pose), with = posed(*other, pose);
     for (std::size_t v = 0; v < with.normals.size(); ++v) {
         if (v == last) continue;
         ASSERT_LE(angleBetween(without.normals[v], with.normals[v]), kTolerance) << v;
     }
 }
 
-TEST_P(SurfaceNormals, AreTheRestNormalsInTheRestPose) {
+TEST_P(SurfaceNormals, MatchRestNormalsInTheRestPose) {
     const test::SlopedTube tube(25, 18);
     const auto model = tube.model();
     const auto rest = tangentsOf(tube, *model);
     const osgSkin::Pose pose(tube.binding.joints);
-    Posed posed(*model, rest.get(), pose);
-    ASSERT_TRUE(run(posed.job));
-    for (std::size_t v = 0; v < posed.normals.size(); ++v) {
-        EXPECT_LE(glm::distance(posed.normals[v], tube.normals[v]), 2e-6f);
-        EXPECT_LE(glm::distance(posed.tangents[v], rest->tangents()[v]), 2e-6f);
+    const auto is = posed(*model, pose, rest.get());
+    for (std::size_t v = 0; v < is.normals.size(); ++v) {
+        EXPECT_LE(glm::distance(is.normals[v], tube.normals[v]), 2e-6f);
+        EXPECT_LE(glm::distance(is.tangents[v], rest->tangents()[v]), 2e-6f);
     }
 }
 
-TEST_P(SurfaceNormals, TakeWhatCorrectivesAdd) {
+TEST_P(SurfaceNormals, IncludeCorrectives) {
     std::mt19937_64 random(13);
     for (const bool sloped : {false, true})
         for (const bool withTangents : {false, true}) {
@@ -231,29 +223,26 @@ TEST_P(SurfaceNormals, TakeWhatCorrectivesAdd) {
             const auto model = tube.model();
             const auto rest = tangentsOf(tube, *model);
             const osgSkin::Pose pose = poseOf(tube.binding, random, false);
-            Posed posed(*model, withTangents ? rest.get() : nullptr, pose);
-            ASSERT_TRUE(run(posed.job));
-            Posed plain(*model, rest.get(), pose);
-            ASSERT_TRUE(plain.job.runReference());
-            for (std::size_t v = 0; v < posed.normals.size(); ++v) {
-                ASSERT_LE(glm::distance(posed.normals[v], plain.normals[v]), 1e-4f) << v;
+            const auto is = posed(*model, pose, withTangents ? rest.get() : nullptr);
+            const auto expected = byReference(*model, pose, rest.get());
+            for (std::size_t v = 0; v < is.normals.size(); ++v) {
+                ASSERT_LE(glm::distance(is.normals[v], expected.normals[v]), 1e-4f) << v;
                 if (!withTangents) continue;
-                ASSERT_LE(glm::distance(posed.tangents[v], plain.tangents[v]), 1e-4f) << v;
-                ASSERT_NEAR(glm::dot(posed.normals[v], glm::vec3(posed.tangents[v])), 0.0f, 1e-4f);
+                ASSERT_LE(glm::distance(is.tangents[v], expected.tangents[v]), 1e-4f) << v;
+                ASSERT_NEAR(glm::dot(is.normals[v], glm::vec3(is.tangents[v])), 0.0f, 1e-4f);
             }
         }
 }
 
-TEST_P(SurfaceNormals, OfCorrectivesAloneAreTiltedAndTurned) {
+TEST_P(SurfaceNormals, RotateCorrectedNormalsWithoutGradients) {
     std::mt19937_64 random(14);
     test::SlopedTube tube(25, 12);
     tube.binding.gradients.clear();
     tube.binding.correctives = test::someCorrectives(tube.binding, 0.2, 4, true);
     const auto model = tube.model();
     const osgSkin::Pose pose = poseOf(tube.binding, random, false);
-    Posed posed(*model, nullptr, pose);
-    ASSERT_TRUE(run(posed.job));
-    for (std::uint32_t v = 0; v < posed.normals.size(); ++v) {
+    const std::vector<glm::vec3> normals = posed(*model, pose).normals;
+    for (std::uint32_t v = 0; v < normals.size(); ++v) {
         glm::dvec3 n =
             glm::dvec3(tube.normals[v]) + test::normalCorrectionOf(tube.binding, pose, v);
         n = glm::normalize(n);
@@ -265,12 +254,12 @@ TEST_P(SurfaceNormals, OfCorrectivesAloneAreTiltedAndTurned) {
                                          double(influence.bend), double(influence.twist)) *
                 n;
         }
-        ASSERT_LE(glm::distance(glm::dvec3(posed.normals[v]), n), 1e-5) << v;
+        ASSERT_LE(glm::distance(glm::dvec3(normals[v]), n), 1e-5) << v;
     }
 }
 
-TEST_P(SurfaceNormals, PartsInAnyOrderMakeTheWhole) {
-    if (!GetParam().target) return; // the reference is not divided into parts
+TEST_P(SurfaceNormals, PartsMatchTheWhole) {
+    if (isReference()) return; // it is not divided into parts
     std::mt19937_64 random(15);
     for (const bool inOrder : {false, true}) {
         test::SlopedTube tube(25, 777);
@@ -279,14 +268,12 @@ TEST_P(SurfaceNormals, PartsInAnyOrderMakeTheWhole) {
         const auto model = tube.model();
         const auto rest = tangentsOf(tube, *model);
         const osgSkin::Pose pose = poseOf(tube.binding, random, false);
-        Posed whole(*model, rest.get(), pose), parts(*model, rest.get(), pose);
-        ASSERT_TRUE(whole.job.run());
-        ASSERT_GE(parts.job.partCount(), 3u);
-        for (std::size_t part = parts.job.partCount(); part-- > 0;) parts.job.runPart(part);
+        const auto whole = posed(*model, pose, rest.get());
+        const auto parts = test::deformInParts(*model, pose, normalsAnd(rest.get()));
         EXPECT_EQ(parts.normals, whole.normals);
         EXPECT_EQ(parts.tangents, whole.tangents);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, SurfaceNormals, testing::ValuesIn(test::ways()),
+INSTANTIATE_TEST_SUITE_P(Targets, SurfaceNormals, testing::ValuesIn(test::allTargets()),
                          [](const auto& tested) { return tested.param.name; });

@@ -3,7 +3,7 @@
 
 #include "clips/BakedClip.h"
 
-#include <osgSkin/DeformJob>
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
@@ -246,15 +246,7 @@ private:
 };
 
 SkinMoment momentOf(const DeformableSkin& skin) {
-    const SkinModel& model = *skin.getModel();
-    SkinMoment moment{skin.getPose(), std::vector<glm::vec3>(model.vertexCount())};
-    DeformJob job;
-    job.model = &model;
-    job.pose = &moment.pose;
-    job.positions = moment.positions.data();
-    job.positionCount = moment.positions.size();
-    job.run();
-    return moment;
+    return {skin.getPose(), deform(*skin.getModel(), skin.getPose()).positions};
 }
 
 osg::BoundingBox boundsOf(const SkinMoment& moment) {
