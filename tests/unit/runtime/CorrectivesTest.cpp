@@ -9,7 +9,6 @@
 
 #include <osgSkin/Error>
 #include <osgSkin/Pose>
-#include <osgSkin/PoseBounds>
 
 #include <gtest/gtest.h>
 
@@ -117,24 +116,6 @@ TEST_P(CorrectedKernel, ChangesNothingAtRest) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, CorrectedKernel, testing::ValuesIn(test::allTargets()),
                          [](const auto& tested) { return tested.param.name; });
-
-TEST(CorrectedBounds, ContainEveryVertex) {
-    std::mt19937_64 random(7);
-    const CorrectedTube skin(41, 18, true);
-    const auto model = skin.model();
-    bool anyNearby = false;
-    for (int i = 0; i < 300; ++i) {
-        const osgSkin::Pose pose = tubePose(skin.binding, random);
-        const osgSkin::PoseBounds bounds = osgSkin::computePoseBounds(*model, pose);
-        for (const glm::vec3& p : osgSkin::deform(*model, pose).positions)
-            for (int axis = 0; axis < 3; ++axis) {
-                ASSERT_GE(p[axis], bounds.low[axis] - 1e-4f);
-                ASSERT_LE(p[axis], bounds.high[axis] + 1e-4f);
-                anyNearby = anyNearby || p[axis] < bounds.low[axis] + 0.5f;
-            }
-    }
-    EXPECT_TRUE(anyNearby); // they are no larger than necessary
-}
 
 using osgSkin::CorrectiveJoint;
 using Basis = osgSkin::CorrectiveJoint::Basis;
