@@ -244,9 +244,9 @@ TEST(RetargetNotes, ReportLimbsAtRest) {
     other.joints[4].name = "Fin"; // the motion has another name for the upper arm
     osgSkin::retarget(standStill(other, 1), figure, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0].find("the motion has nothing for \"LeftArm\" of the rig"), 0u)
+    EXPECT_EQ(report.notes[0].find("no motion data for \"LeftArm\" of the rig"), 0u)
         << report.notes[0];
-    EXPECT_NE(report.text().find("note: the motion has nothing"), std::string::npos);
+    EXPECT_NE(report.text().find("note: no motion data"), std::string::npos);
     osgSkin::retarget(standStill(other, 1), figure, {{{"LeftArm", ""}}}, &report);
     EXPECT_TRUE(report.notes.empty()) << "wanted so";
 
@@ -255,7 +255,7 @@ TEST(RetargetNotes, ReportLimbsAtRest) {
     other.joints[2].name = "Head";
     osgSkin::retarget(standStill(figure, 1), other, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0].find("the rig has nothing for \"Hips\", \"Spine\", "
+    EXPECT_EQ(report.notes[0].find("the rig has no joint for \"Hips\", \"Spine\", "
                                    "\"LeftArm\", \"LeftForeArm\" and 4 more of the motion"),
               0u)
         << report.notes[0];
@@ -273,8 +273,8 @@ TEST(RetargetNotes, ReportLimbsAtRest) {
     stranger.joints[5].name = "'part5'";
     osgSkin::retarget(standStill(stranger, 1), other, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0].find("the motion has nothing for \"part5\" of the rig, and the rig "
-                                   "nothing for \"'part5'\" of the motion; expected"),
+    EXPECT_EQ(report.notes[0].find("no motion data for \"part5\" of the rig; \"'part5'\" of the "
+                                   "motion not used; expected"),
               0u)
         << report.notes[0];
 
@@ -282,7 +282,7 @@ TEST(RetargetNotes, ReportLimbsAtRest) {
     other.joints[2].name = "Top";
     osgSkin::retarget(standStill(other, 1), figure, {}, &report);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0].find("the motion has nothing for \"Head\" of the rig"), 0u)
+    EXPECT_EQ(report.notes[0].find("no motion data for \"Head\" of the rig"), 0u)
         << report.notes[0];
 }
 

@@ -155,6 +155,8 @@ TEST(ShapeRolesOf, ReportNamesTheRoles) {
     retarget(importMotion(OSGSKIN_DATA "/throw.bvh"), body, {}, &report);
     EXPECT_EQ(report.rigNames, kInferredFromGeometry);
     ASSERT_FALSE(report.notes.empty());
-    EXPECT_NE(report.notes[0].find("told by its shape"), std::string::npos) << report.notes[0];
-    EXPECT_NE(report.text().find("names: rig none (told by shape), motion CMU"), std::string::npos);
+    EXPECT_NE(report.notes[0].find("inferred from its shape"), std::string::npos)
+        << report.notes[0];
+    EXPECT_NE(report.text().find("names: rig inferred from the skeleton's shape, motion CMU"),
+              std::string::npos);
 }

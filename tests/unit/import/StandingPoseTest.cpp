@@ -125,7 +125,7 @@ TEST_F(StandingPose, KeepsZeroPoseWithoutHead) {
     const Clip clip = retarget(headless, wide, {}, &theirs);
     EXPECT_TRUE(ours.notes.empty());
     ASSERT_EQ(theirs.notes.size(), 1u);
-    EXPECT_EQ(theirs.notes[0].find("the motion has nothing for \"Head\" of the rig"), 0u)
+    EXPECT_EQ(theirs.notes[0].find("no motion data for \"Head\" of the rig"), 0u)
         << theirs.notes[0];
     const auto arm = std::size_t(wide.find("LeftArm"));
     for (std::size_t f = 0; f < clip.frames; ++f)

@@ -255,11 +255,8 @@ double distanceToSegment(const glm::dvec3& p, const glm::dvec3& a, const glm::dv
 /// The arm of one side, without held things: points farther from the forearm than its length.
 void addArm(const RestSkeleton& rest, const JointRoles& roles, const std::string& side,
             const SkinPoints& skin, std::vector<ArmPiece>& arms) {
-    const auto find = [&](const char* role) {
-        const auto found = roles.joints.find(side + role);
-        return found == roles.joints.end() ? -1 : found->second.front();
-    };
-    const int upper = find("UpperArm"), lower = find("LowerArm"), hand = find("Hand");
+    const int upper = roles.joint(side + "UpperArm"), lower = roles.joint(side + "LowerArm");
+    const int hand = roles.joint(side + "Hand");
     if (upper <= 0 || lower < 0 || hand < 0 || !rest.isInSubtree(lower, upper)) return;
     const glm::dvec3& elbow = rest.joints[static_cast<std::size_t>(lower)].centre;
     const glm::dvec3& wrist = rest.joints[static_cast<std::size_t>(hand)].centre;

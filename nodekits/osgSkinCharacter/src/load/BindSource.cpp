@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/LoadSteps.h"
-#include "options/LoadReport.h"
 #include "source/CharacterSource.h"
+#include "source/LoadReport.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/Error>
@@ -84,17 +84,17 @@ osg::BoundingBoxd boxOf(const SkinMesh& mesh) {
 }
 
 /// \param joints number of joints
-/// \param mostRatio largest ratio of lengths in the same unit
+/// \param maxRatio largest ratio of lengths in the same unit
 /// \param outside number of joints outside the skin
 void warnUnitMismatch(CharacterSource& source, const osg::BoundingBoxd& body,
-                      const osg::BoundingBoxd& skeleton, std::size_t joints, double mostRatio,
+                      const osg::BoundingBoxd& skeleton, std::size_t joints, double maxRatio,
                       std::size_t outside) {
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note.precision(3);
     note << source.file << ": ";
     const double ratio = lengthOf(skeleton) > 0.0 ? lengthOf(body) / lengthOf(skeleton) : 1.0;
-    if (ratio > mostRatio || ratio < 1.0 / mostRatio)
+    if (ratio > maxRatio || ratio < 1.0 / maxRatio)
         note << "the body is " << ratio
              << " times as long as the skeleton, expected both in the same unit";
     else if (outside > joints - outside)
@@ -103,7 +103,7 @@ void warnUnitMismatch(CharacterSource& source, const osg::BoundingBoxd& body,
                 "and place";
     else
         return;
-    takeNote(source.notes, note.str());
+    warn(source.notes, note.str());
 }
 
 /// Warns about a skeleton that hardly fits the body: in another unit, with another axis up, or
@@ -151,7 +151,7 @@ void warnUnitMismatch(CharacterSource& source, const VertexWeights& weights) {
 /// Warns about a body so far from the origin that single precision changes its shape.
 ///
 /// \param source with a body; gets a note
-void tellRounding(CharacterSource& source) {
+void warnRounding(CharacterSource& source) {
     double farthest = 0.0;
     for (const glm::dvec3& p : source.body.mesh.positions)
         for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(p[axis]));
@@ -164,7 +164,7 @@ void tellRounding(CharacterSource& source) {
     note << source.meshFile << ": the body is " << farthest << " from the origin and " << size
          << " long, so that single precision rounds its vertices by " << rounding
          << "; expected it near the origin, moved by a transform above it";
-    takeNote(source.notes, note.str());
+    warn(source.notes, note.str());
 }
 
 constexpr double kWhole = 0.99; ///< share of a shell's weight that counts as painted for one joint
@@ -209,9 +209,9 @@ std::vector<int> extremities(const RestSkeleton& rest, const JointRoles& roles) 
     return result;
 }
 
-class Keeper {
+class RigidShells {
 public:
-    Keeper(const CharacterSource& source, const VertexWeights& weights, const Binding& binding)
+    RigidShells(const CharacterSource& source, const VertexWeights& weights, const Binding& binding)
         : _roles(recogniseJoints(source.rest, source.bind.names)),
           _extremities(extremities(source.rest, _roles)), _weights(weights), _binding(binding) {}
 
@@ -315,17 +315,17 @@ std::size_t bindShellsRigidly(const CharacterSource& source, const VertexWeights
     if (shells.size() < 2) return 0;
     std::size_t largest = 0;
     for (const Shell& shell : shells) largest = std::max(largest, shell.size());
-    const Keeper keeper(source, weights, binding);
+    const RigidShells rigid(source, weights, binding);
     std::vector<int> jointOf(binding.vertexCount(), -1);
-    std::size_t kept = 0;
+    std::size_t changed = 0;
     for (const Shell& shell : shells) {
-        const int joint = keeper.jointOf(shell, shell.size() == largest);
+        const int joint = rigid.jointOf(shell, shell.size() == largest);
         if (joint < 0) continue;
         for (const std::uint32_t v : shell) jointOf[v] = joint;
-        ++kept;
+        ++changed;
     }
-    if (kept > 0) follow(jointOf, binding);
-    return kept;
+    if (changed > 0) follow(jointOf, binding);
+    return changed;
 }
 
 using Painted = CharacterSource::Painted;
@@ -371,42 +371,42 @@ VertexWeights withoutBareShells(const SkinMesh& mesh, const VertexWeights& weigh
 }
 
 /// Notes vertices without weights, where the method is weights.
-void tellGaps(CharacterSource& source, const VertexWeights& weights) {
+void warnUnweighted(CharacterSource& source, const VertexWeights& weights) {
     const std::size_t gaps = gapsOf(weights);
     const std::string& file = source.weightsFile.empty() ? source.meshFile : source.weightsFile;
     if (gaps > 0)
-        takeNote(source.notes, file + ": " + std::to_string(gaps) + " of " +
-                                   std::to_string(weights.size()) +
-                                   " vertices have no weights, they take those of the nearest "
-                                   "that has");
+        warn(source.notes, file + ": " + std::to_string(gaps) + " of " +
+                               std::to_string(weights.size()) +
+                               " vertices have no weights, they take those of the nearest "
+                               "that has");
 }
 
 /// Notes that a mesh's own weights are not used.
 /// \param weights empty if they are for another skeleton
-void tellUnused(CharacterSource& source, const VertexWeights& weights) {
+void warnUnused(CharacterSource& source, const VertexWeights& weights) {
     if (weights.empty()) {
-        takeNote(source.notes, source.meshFile + ": its weights are for bones that the skeleton "
-                                                 "does not have, the body is bound by regions");
+        warn(source.notes, source.meshFile + ": its weights are for bones that the skeleton "
+                                             "does not have, the body is bound by regions");
         return;
     }
     const std::size_t gaps = gapsOf(weights);
     if (gaps == weights.size()) {
-        takeNote(source.notes,
-                 source.meshFile + ": no weight is above 0, the body is bound by regions");
+        warn(source.notes,
+             source.meshFile + ": no weight is above 0, the body is bound by regions");
         return;
     }
-    if (gaps == 0 && source.rest.joints.size() == 1) return; // all vertices follow it either way
+    if (gaps == 0 && source.rest.joints.size() == 1) return; // all vertices follow it in both cases
     const std::string why = gaps == 0
                                 ? "all vertices follow one joint"
                                 : std::to_string(gaps) + " of " + std::to_string(weights.size()) +
                                       " vertices have no weights";
-    takeNote(source.notes, source.meshFile + ": " + why +
-                               ", the body is bound by regions (a .skin file's \"bind\": "
-                               "\"weights\" keeps to them)");
+    warn(source.notes, source.meshFile + ": " + why +
+                           ", the body is bound by regions (set \"bind\": \"weights\" "
+                           "to use them anyway)");
 }
 
 /// Skips joints that a well-painted file's own weights never use: IK targets, controls, ends of
-/// chains. Joints at the same position as a used one (the "D" bones of MMD) are kept: either may
+/// chains. Joints at the same position as a used one (the "D" bones of MMD) are changed: either may
 /// own skin.
 void skipUnused(const RestSkeleton& rest, const VertexWeights& weights, BindOptions& options) {
     std::vector<bool> isUsed(rest.joints.size(), false);
@@ -453,7 +453,7 @@ void checkSize(const CharacterSource& source) {
 
 Binding bindSource(CharacterSource& source, const Progress& progress, BindReport& report) {
     checkSize(source);
-    tellRounding(source);
+    warnRounding(source);
     BindOptions options = source.bind;
     options.progress = progress;
     if (options.maxInfluences == 0)
@@ -469,20 +469,20 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
                          : bind(source.body.mesh, source.rest, options, &report);
     });
     for (const std::string& joint : report.bareJoints)
-        takeNote(source.notes, source.file + ": no skin belongs to joint \"" + joint +
-                                   "\", whose bone is as long as a limb's");
+        warn(source.notes, source.file + ": no skin belongs to joint \"" + joint +
+                               "\", whose bone is as long as a limb's");
     if (!source.rigidNote.empty()) report.notes.push_back(source.rigidNote);
     const std::string morphs = morphsNote(source.body);
     if (!morphs.empty()) report.notes.push_back(morphs);
     if (byWeights) {
-        tellGaps(source, weights);
+        warnUnweighted(source, weights);
         warnUnitMismatch(source, weights);
     }
-    if (source.painted == Painted::WhereGood && !byWeights) tellUnused(source, weights);
+    if (source.painted == Painted::WhereGood && !byWeights) warnUnused(source, weights);
     if (!byWeights) {
         warnUnitMismatch(source, report);
-        if (const std::size_t kept = bindShellsRigidly(source, weights, binding))
-            report.notes.push_back(std::to_string(kept) +
+        if (const std::size_t changed = bindShellsRigidly(source, weights, binding))
+            report.notes.push_back(std::to_string(changed) +
                                    " shells follow one joint: heads, and what hands hold");
     }
     OSG_INFO << source.file << ":\n" << report.text();

@@ -2,9 +2,9 @@
 #include <osgSkinCharacter/LoadCharacter>
 
 #include "load/LoadSteps.h"
-#include "options/LoadReport.h"
 #include "scene/BuildScene.h"
 #include "source/CharacterSource.h"
+#include "source/LoadReport.h"
 
 #include <osgSkin/Error>
 #include <osgSkinGpu/GpuSkin>
@@ -25,48 +25,39 @@
 namespace osgSkin {
 namespace {
 
-/// Marks a character's file as being loaded. OSG's readers may load further characters as its
-/// parts; this detects files that include themselves or each other.
-class OpenFile {
-public:
-    /// \throw Error where this thread is already loading the file, or parts are nested too deeply
-    explicit OpenFile(const std::string& file);
-    ~OpenFile();
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-};
-
-constexpr std::size_t kDeepestFile = 8;
-
-/// This thread's files, from the outermost to the innermost.
-std::vector<std::string>& openFiles() {
-    static thread_local std::vector<std::string> files;
-    return files;
-}
+constexpr std::size_t kMaxNested = 8;
 
 /// A canonical name for a file.
-std::string onlyName(const std::string& file) {
+std::string canonicalName(const std::string& file) {
     std::error_code failure;
     const std::filesystem::path path = std::filesystem::weakly_canonical(file, failure);
     return failure ? file : path.string();
 }
 
-OpenFile::OpenFile(const std::string& file) {
-    std::vector<std::string>& files = openFiles();
-    const std::string name = onlyName(file);
-    if (std::find(files.begin(), files.end(), name) != files.end())
-        throw Error(file + ": is a part of itself" +
-                    (files.size() > 1 ? ", by way of " + files.back() : "") +
-                    ", expected another file");
-    if (files.size() >= kDeepestFile)
-        throw Error(file + ": characters are parts of each other, expected no more than " +
-                    std::to_string(kDeepestFile));
-    files.push_back(name);
-}
+/// Marks a character's file as being loaded. OSG's readers may load further characters as its
+/// parts; this detects files that include themselves or each other.
+class OpenFile {
+public:
+    /// \throw Error where this thread is already loading the file, or parts are nested too deeply
+    explicit OpenFile(const std::string& file) {
+        const std::string name = canonicalName(file);
+        if (std::find(_files.begin(), _files.end(), name) != _files.end())
+            throw Error(file + ": includes itself" +
+                        (_files.size() > 1 ? " (via " + _files.back() + ")" : ""));
+        if (_files.size() >= kMaxNested)
+            throw Error(file + ": characters nested more than " + std::to_string(kMaxNested) +
+                        " deep");
+        _files.push_back(name);
+    }
+    ~OpenFile() { _files.pop_back(); }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
 
-OpenFile::~OpenFile() {
-    openFiles().pop_back();
-}
+private:
+    static thread_local std::vector<std::string> _files; ///< from the outermost to the innermost
+};
+
+thread_local std::vector<std::string> OpenFile::_files;
 
 /// The steps that `.skin` files and rigged models share: everything after reading their files.
 Character makeCharacter(CharacterSource source, const LoadOptions& options, LoadStages& stages) {

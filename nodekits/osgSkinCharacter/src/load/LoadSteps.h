@@ -2,8 +2,8 @@
 #ifndef OSGSKINCHARACTER_LOAD_LOADSTEPS_H
 #define OSGSKINCHARACTER_LOAD_LOADSTEPS_H
 
-#include "options/LoadReport.h"
 #include "source/CharacterSource.h"
+#include "source/LoadReport.h"
 
 #include <osgSkin/Binding>
 #include <osgSkinBind/BindReport>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load/LoadSteps.h"
-#include "options/LoadReport.h"
+#include "source/LoadReport.h"
 
 #include <osgSkinBind/RigidJoints>
 #include <osgSkinImport/ImportMotion>
@@ -48,7 +48,7 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
         withFileContext(source.file, [&] { withFileContext(entry.file, make); });
         OSG_INFO << entry.file << ":\n" << made.report.text();
         for (const std::string& note : made.report.notes)
-            takeNote(source.notes, entry.file + ": " + note);
+            warn(source.notes, entry.file + ": " + note);
     }
     return motions;
 }

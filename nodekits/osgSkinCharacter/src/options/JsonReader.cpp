@@ -33,7 +33,7 @@ std::size_t endOfString(const std::string& text, std::size_t at) {
     return at + 1;
 }
 
-/// The same for all ways to spell a key: "\u0061" is "a".
+/// The same for all spellings of a key: "\u0061" is "a".
 std::string meaning(const std::string& quoted) {
     const bool isPlain = quoted.find('\\') == std::string::npos;
     return isPlain ? quoted : nlohmann::json::parse(quoted).dump();
@@ -155,9 +155,9 @@ bool JsonReader::boolean() const {
 std::size_t JsonReader::count() const {
     // JSON does not distinguish 1 from 1.0 and 1e0, which some programs write.
     if (_value.is_number()) {
-        constexpr double kMost = 1e15; // all whole numbers below are doubles
+        constexpr double kMax = 1e15; // all whole numbers below are doubles
         const double number = _value.get<double>();
-        if (number >= 0.0 && number <= kMost && std::floor(number) == number)
+        if (number >= 0.0 && number <= kMax && std::floor(number) == number)
             return static_cast<std::size_t>(number);
     }
     if (!_value.is_number_unsigned()) failExpected("a whole number, 0 or more");

@@ -27,8 +27,8 @@ namespace {
 /// description of short files could take hours.
 class FileUses {
 public:
-    /// \param most how often a file may be named (ReadLimits::uses)
-    explicit FileUses(std::size_t most) : _most(most) {}
+    /// \param max how often a file may be named (ReadLimits::uses)
+    explicit FileUses(std::size_t max) : _max(max) {}
 
     /// Counts one use. Different paths to one file count together.
     ///
@@ -38,13 +38,13 @@ public:
     void add(const std::string& file, const JsonReader& place) {
         std::error_code failure;
         const std::string path = std::filesystem::weakly_canonical(file, failure).string();
-        if (++_uses[failure ? file : path] > _most)
-            place.failWith("names " + file + " once more, expected at most " +
-                           std::to_string(_most) + " times (option maxUses)");
+        if (++_uses[failure ? file : path] > _max)
+            place.failWith(file + " is used more than " + std::to_string(_max) +
+                           " times (option maxUses)");
     }
 
 private:
-    std::size_t _most;
+    std::size_t _max;
     std::map<std::string, std::size_t> _uses; ///< by path
 };
 
@@ -163,8 +163,8 @@ SkinFile::MotionEntry readMotion(const JsonReader& reader, const std::string& fo
 /// Families of names: role -> a joint's name, or a list of them.
 class NamesReader {
 public:
-    /// \param most limit for the names of all families together: joints are looked up among them often
-    explicit NamesReader(std::size_t most) : _most(most) {
+    /// \param max limit for the names of all families together: joints are looked up among them often
+    explicit NamesReader(std::size_t max) : _max(max) {
         for (const JointNames& known : knownJointNames())
             for (const auto& [role, members] : known.roles) _roles.insert(role);
     }
@@ -176,8 +176,8 @@ public:
                 value.failWith("no such part of a body" +
                                expectedNames(role, {_roles.begin(), _roles.end()}));
             const auto add = [&](const JsonReader& name) {
-                if (++_count > _most)
-                    name.failWith("one of more than " + std::to_string(_most) +
+                if (++_count > _max)
+                    name.failWith("one of more than " + std::to_string(_max) +
                                   " names (option maxJoints)");
                 names.roles[role].push_back(name.string());
             };
@@ -190,7 +190,7 @@ public:
     }
 
 private:
-    const std::size_t _most;
+    const std::size_t _max;
     std::size_t _count = 0;
     std::set<std::string> _roles;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/BuildScene.h"
 
-#include "options/LoadReport.h"
 #include "scene/FrontOrientation.h"
 #include "source/CharacterSource.h"
+#include "source/LoadReport.h"
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/Binding>
@@ -19,6 +19,7 @@
 #include <osgSkinCharacter/CharacterMotion>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
+#include <osgSkinRig/BodyDirections>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/ForwardKinematics>
 #include <osgSkinRig/MakeSkeleton>
@@ -273,11 +274,10 @@ void takeAnimations(const CharacterSource& source, Character& character) {
     const std::vector<std::string> bones =
         findNonUniformScale(*character.skeleton, source.animations);
     if (!bones.empty())
-        takeNote(
-            character.notes,
-            character.file + ": " + bones.front() +
-                (bones.size() > 1 ? " and " + std::to_string(bones.size() - 1) + " more" : "") +
-                " scaled non-uniformly, mirrored or to nothing, which the skin does not follow");
+        warn(character.notes,
+             character.file + ": " + bones.front() +
+                 (bones.size() > 1 ? " and " + std::to_string(bones.size() - 1) + " more" : "") +
+                 " scaled non-uniformly, mirrored or to nothing, which the skin does not follow");
     for (const auto& animation : source.animations)
         character.motions.emplace_back().animation = animation;
 }
@@ -305,9 +305,10 @@ void play(Character& character) {
 
 /// For a rig that is not straight at rest (sitting or curled up) the motion may show which axis is
 /// up.
-osg::Matrixd turnOfRig(const Character& character, const JointRoles& roles) {
+osg::Matrixd frontRotation(const Character& character, const JointRoles& roles) {
     const JointCentres atRest = restCentres(character.rest, character.toWorld);
-    if (character.motions.empty() || isStraight(roles, atRest)) return orientToFront(roles, atRest);
+    if (character.motions.empty() || BodyDirections(roles, atRest).isStraight())
+        return orientToFront(roles, atRest);
     return orientToFront(
         roles, atRest,
         clipCentres(character.rest, character.motions.front().clip, character.toWorld));
@@ -319,7 +320,7 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
     if (options.showRegions) showRegions(character.body.parts, character.binding);
     attach(source, character);
     const JointRoles roles = recogniseJoints(character.rest, source.bind.names);
-    if (!source.skeleton) character.toWorld = character.toWorld * turnOfRig(character, roles);
+    if (!source.skeleton) character.toWorld = character.toWorld * frontRotation(character, roles);
     const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character);
     upright->addChild(character.skeleton);
     PropMeshes propMeshes(source, character.metresPerUnit());
@@ -334,10 +335,10 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         const JointCentres atRest = boneCentres(character.rest, *character.root);
         osg::BoundingSphere bound = playedBounds(*character.root, source.animations);
         const JointCentres played = boneCentres(character.rest, *character.root);
-        const osg::Matrixd turn = orientToFront(roles, atRest, played);
-        character.toWorld = character.toWorld * turn;
+        const osg::Matrixd rotation = orientToFront(roles, atRest, played);
+        character.toWorld = character.toWorld * rotation;
         upright->setMatrix(character.toWorld);
-        bound.center() = bound.center() * turn;
+        bound.center() = bound.center() * rotation;
         character.root->setInitialBound(bound);
     } else if (!character.motions.empty()) {
         // A viewer places its camera before the first frame, so it needs bounds of the whole

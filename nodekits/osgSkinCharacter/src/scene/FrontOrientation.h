@@ -5,17 +5,16 @@
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/RestSkeleton>
 
+#include <glm/vec3.hpp>
 #include <osg/Matrixd>
 #include <osg/Node>
-#include <osg/Vec3d>
 
-#include <optional>
 #include <vector>
 
 namespace osgSkin {
 
-/// Joint centres in the world; unset for joints that are not found.
-using JointCentres = std::vector<std::optional<osg::Vec3d>>;
+/// Joint centres in the world; not finite for joints that are not found.
+using JointCentres = std::vector<glm::dvec3>;
 
 /// The quarter turns after which a figure stands along +Z and faces -Y, towards the camera of OSG's
 /// viewers.
@@ -28,13 +27,6 @@ using JointCentres = std::vector<std::optional<osg::Vec3d>>;
 /// \return a rotation; the identity where up and left are unknown
 osg::Matrixd orientToFront(const JointRoles& roles, const JointCentres& centres,
                            const JointCentres& played = {});
-
-/// Whether trunk, thighs and shins lie along one axis. Such a rest pose shows which axis is up,
-/// even if a motion begins on the floor.
-///
-/// \param roles of the joints
-/// \param centres [joint], world
-bool isStraight(const JointRoles& roles, const JointCentres& centres);
 
 /// The joints of a rest pose, in the world.
 /// \param rest the skeleton

@@ -8,8 +8,26 @@
 #include <locale>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace osgSkin {
+
+LoadStages::LoadStages(Progress progress) : _progress(std::move(progress)) {}
+
+void LoadStages::plan(double total) {
+    _total = total;
+}
+
+Progress LoadStages::begin(const std::string& what, double size) {
+    _begun += _size;
+    _size = size;
+    if (_progress) _progress({what, _begun / _total});
+    return subProgress(_progress, _begun / _total, (_begun + _size) / _total, what);
+}
+
+void LoadStages::finish() {
+    if (_progress) _progress({"done", 1.0});
+}
 
 void MotionSamples::add(const std::string& file, std::size_t frames, std::size_t joints,
                         const ReadLimits& limits) {
@@ -42,7 +60,7 @@ double unitOf(double stated, const LoadOptions& options, const std::string& file
         note << file << ": states that its unit is " << stated
              << " m, so the option unit is not used; a number (\"unit\": " << given.metres
              << ") would replace it";
-        takeNote(notes, note.str());
+        warn(notes, note.str());
     }
     return stated;
 }

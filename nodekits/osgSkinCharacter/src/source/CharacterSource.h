@@ -2,8 +2,8 @@
 #ifndef OSGSKINCHARACTER_SOURCE_CHARACTERSOURCE_H
 #define OSGSKINCHARACTER_SOURCE_CHARACTERSOURCE_H
 
-#include "options/LoadReport.h"
 #include "options/SkinFile.h"
+#include "source/LoadReport.h"
 
 #include <osg/Matrixd>
 #include <osg/ref_ptr>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/CharacterSource.h"
 
-#include "options/LoadReport.h"
 #include "options/SkinFile.h"
 #include "source/ApplyOptions.h"
+#include "source/LoadReport.h"
 
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinImport/ShareImages>
@@ -26,7 +26,7 @@ void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) 
         source.meshFile, [&] { return fitSkeleton(source.body.mesh, fit, &source.fitReport); });
     OSG_INFO << source.file << ":\n" << source.fitReport.text();
     for (const std::string& note : source.fitReport.notes)
-        takeNote(source.notes, source.file + ": fitted skeleton: " + note);
+        warn(source.notes, source.file + ": fitted skeleton: " + note);
 }
 
 std::vector<std::string> filesOf(const SkinFile& skin, const CharacterSource& source) {

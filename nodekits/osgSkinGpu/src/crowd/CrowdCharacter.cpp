@@ -277,21 +277,22 @@ void CrowdCharacter::addCharacter(const ClipCharacter& character, double samples
     const osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
     std::vector<osg::ref_ptr<DeformableSkin>> skins;
     for (const ClipCharacter::Skin& source : character.skins()) {
-        if (source.look.mask == 0 || source.skin->getNodeMask() == 0) continue;
+        if (source.appearance.mask == 0 || source.skin->getNodeMask() == 0) continue;
         // A copy, since a player poses it, and its state is that of the nodes above, too.
         skins.push_back(osg::clone(source.skin.get(), osg::CopyOp::SHALLOW_COPY));
-        skins.back()->setStateSet(bothOf(source.look.state, source.skin->getStateSet()));
+        skins.back()->setStateSet(bothOf(source.appearance.state, source.skin->getStateSet()));
         addSkin(*skins.back(), source.toWorld);
         player->addSkin(skins.back());
     }
     for (const ClipCharacter::Rigid& rigid : character.rigids()) {
-        if (rigid.look.mask == 0) continue;
+        if (rigid.appearance.mask == 0) continue;
         std::size_t skin = 0;
         while (skin + 1 < _skins.size() && jointOf(_skins[skin].model->model(), rigid.joint) < 0)
             ++skin;
         for (const osg::ref_ptr<osg::Node>& part : rigid.parts)
             for (const FindGeometries::Found& found : FindGeometries(*part).all)
-                addRigid(*found.geometry, bothOf(rigid.look.state, found.state), skin, rigid.joint);
+                addRigid(*found.geometry, bothOf(rigid.appearance.state, found.state), skin,
+                         rigid.joint);
     }
     const auto sampled = [&](const SampledClip* clip) {
         Samples samples(skins.size());
@@ -392,7 +393,7 @@ void CrowdCharacter::bake(const Samples& samples, Clip& clip, osg::BoundingBox& 
         clip.palettes.emplace_back(clip.samples * model.paletteSize());
         for (std::size_t i = 0; i < clip.samples; ++i) {
             const std::vector<glm::dmat4>& skinning = samples[s][i];
-            // Continued, so that interpolation takes the short way.
+            // Continued, so that interpolation takes the shorter rotation.
             if (!pose.set(skinning.data(), skinning.size(),
                           i == 0 ? Pose::Twist::Shortest : Pose::Twist::Continued))
                 throw Error("crowd: sample " + std::to_string(i) + " of a clip cannot be used");

@@ -29,8 +29,8 @@ void TexelCheck::drawImplementation(osg::RenderInfo& renderInfo,
               : drawable->drawImplementation(renderInfo);
         return;
     }
-    static std::atomic<bool> isTold{false};
-    if (!isTold.exchange(true))
+    static std::atomic<bool> wasReported{false};
+    if (!wasReported.exchange(true))
         OSG_WARN << "osgSkin: a crowd has a buffer of " << _texels
                  << " texels, more than this driver reads; the crowd is not drawn" << std::endl;
 }

@@ -394,10 +394,10 @@ struct GpuCrowd::Inside {
             std::make_unique<CrowdDraws>(*character, instances.size(), CrowdDraws::Count::Indirect);
         cull = new CrowdCull(*character, *indirect, members->texture());
         cull->setCount(instances.size());
-        tellTime();
+        updateTime();
     }
 
-    void tellTime() const {
+    void updateTime() const {
         time->set(static_cast<float>(seconds - (members ? members->since() : 0.0)));
     }
 
@@ -469,7 +469,7 @@ void GpuCrowd::setTime(double seconds) {
     in.seconds = seconds;
     if (in.members && std::abs(seconds - in.members->since()) > kMaxSeconds)
         in.members->setSince(seconds);
-    in.tellTime();
+    in.updateTime();
 }
 
 void GpuCrowd::boundsChanged() {
@@ -489,8 +489,8 @@ void GpuCrowd::traverse(osg::NodeVisitor& nv) {
     const osg::GLExtensions* extensions = osg::GLExtensions::Get(state.getContextID(), false);
     if (!extensions) return; // drawn in no frame yet
     if (extensions->glslLanguageVersion < 3.3f) {
-        static std::atomic<bool> isTold{false};
-        if (!isTold.exchange(true))
+        static std::atomic<bool> wasReported{false};
+        if (!wasReported.exchange(true))
             OSG_WARN << "osgSkin: crowds need OpenGL 3.3; nothing of them is drawn" << std::endl;
         return;
     }

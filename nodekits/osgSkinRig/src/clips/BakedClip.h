@@ -28,13 +28,13 @@ public:
         osg::ref_ptr<const SkinModel> model;  ///< whose joints were posed
         std::vector<Pose> poses;              ///< of each sample
         std::vector<osg::BoundingBox> bounds; ///< of each sample
-        std::vector<osg::BoundingBox> ways;   ///< [sample * kParts + part]; see sweptBounds()
+        std::vector<osg::BoundingBox> sweeps; ///< [sample * kParts + part]; see sweptBounds()
 
         /// A box that holds the skin at a position in the clip; not valid where none is known.
         const osg::BoundingBox& boundsAt(const SampledClip::Place& place) const {
             if (!(place.share > 0.0)) return bounds[place.from];
             const auto part = static_cast<std::size_t>(place.share * double(kParts));
-            return ways[place.from * kParts + std::min(part, kParts - 1)];
+            return sweeps[place.from * kParts + std::min(part, kParts - 1)];
         }
     };
 

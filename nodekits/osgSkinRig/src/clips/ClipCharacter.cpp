@@ -36,13 +36,13 @@ struct SkinMoment {
     std::vector<glm::vec3> positions; ///< of all vertices
 };
 
-constexpr std::size_t kWayParts = BakedClip::kParts;
-constexpr double kHalfTurn = 2.9;     ///< radians, nearly
-constexpr double kTwistJump = 1.0;    ///< of a twist, radians in a step
-constexpr float kWayMargin = 0.25f;   ///< of a second difference: twice an eighth
-constexpr float kWayRounding = 1e-5f; ///< of a coordinate
+constexpr std::size_t kIntervalParts = BakedClip::kParts;
+constexpr double kHalfTurn = 2.9;       ///< radians, nearly
+constexpr double kTwistJump = 1.0;      ///< of a twist, radians in a step
+constexpr float kSweepMargin = 0.25f;   ///< of a second difference: twice an eighth
+constexpr float kSweepRounding = 1e-5f; ///< of a coordinate
 
-using Moments = std::array<SkinMoment, kWayParts + 1>;
+using Moments = std::array<SkinMoment, kIntervalParts + 1>;
 
 /// Whether all splits change continuously. The root's does not count: no vertex follows it in part.
 bool isSmooth(const Moments& moments) {
@@ -62,11 +62,11 @@ bool isSmooth(const Moments& moments) {
 /// How far a vertex may be from the lines between its positions.
 glm::vec3 marginOf(const Moments& moments, std::size_t vertex) {
     glm::vec3 most(0.0f);
-    for (std::size_t k = 1; k < kWayParts; ++k)
+    for (std::size_t k = 1; k < kIntervalParts; ++k)
         most = glm::max(most, glm::abs(moments[k - 1].positions[vertex] -
                                        2.0f * moments[k].positions[vertex] +
                                        moments[k + 1].positions[vertex]));
-    return kWayMargin * most + kWayRounding * glm::abs(moments[0].positions[vertex]);
+    return kSweepMargin * most + kSweepRounding * glm::abs(moments[0].positions[vertex]);
 }
 
 /// Adds boxes that hold a skin between one sample and the next, one for each part of the interval.
@@ -79,20 +79,20 @@ glm::vec3 marginOf(const Moments& moments, std::size_t vertex) {
 /// \param moments at even steps, both ends included
 /// \param boxes gets one for each part
 void sweptBounds(const Moments& moments, std::vector<osg::BoundingBox>& boxes) {
-    std::array<osg::BoundingBox, kWayParts> ways;
+    std::array<osg::BoundingBox, kIntervalParts> sweeps;
     const std::size_t vertices =
         isSmooth(moments) ? moments.front().positions.size() : std::size_t{0};
     for (std::size_t v = 0; v < vertices; ++v) {
         const glm::vec3 margin = marginOf(moments, v);
-        for (std::size_t k = 0; k < kWayParts; ++k)
+        for (std::size_t k = 0; k < kIntervalParts; ++k)
             for (const std::size_t end : {k, k + 1}) {
                 const glm::vec3& p = moments[end].positions[v];
                 const glm::vec3 low = p - margin, high = p + margin;
-                ways[k].expandBy(low.x, low.y, low.z);
-                ways[k].expandBy(high.x, high.y, high.z);
+                sweeps[k].expandBy(low.x, low.y, low.z);
+                sweeps[k].expandBy(high.x, high.y, high.z);
             }
     }
-    boxes.insert(boxes.end(), ways.begin(), ways.end());
+    boxes.insert(boxes.end(), sweeps.begin(), sweeps.end());
 }
 
 osgAnimation::Bone* boneAbove(const osg::NodePath& path, osg::NodePath* below = nullptr) {
@@ -144,8 +144,8 @@ std::string boneOf(const osg::NodePath& path) {
     if (!bone) return {};
     below.pop_back();
     if (!osg::computeLocalToWorld(below).isIdentity())
-        throw Error("clip character: the rigid part \"" + path.back()->getName() +
-                    "\" stands under another transform than its bone \"" + bone->getName() + "\"");
+        throw Error("clip character: there is a transform between the rigid part \"" +
+                    path.back()->getName() + "\" and its bone \"" + bone->getName() + "\"");
     return bone->getName();
 }
 
@@ -212,7 +212,7 @@ private:
 
 /// The node of a copy. A crowd's nodes have left the caches when a cull visits them: it asks for
 /// all of a member's nodes at once, instead of waiting for one after the other.
-class Figure : public osg::MatrixTransform {
+class CopyRoot : public osg::MatrixTransform {
 public:
     /// Adds a part of the figure.
     ///
@@ -257,26 +257,26 @@ osg::BoundingBox boundsOf(const SkinMoment& moment) {
 
 } // namespace
 
-ClipCharacter::Look ClipCharacter::lookOf(const osg::NodePath& path) {
-    Look look;
+ClipCharacter::Appearance ClipCharacter::appearanceOf(const osg::NodePath& path) {
+    Appearance result;
     for (std::size_t i = 0; i < path.size(); ++i) {
         const osg::Node& node = *path[i];
         if (dynamic_cast<const DeformableSkin*>(&node))
             break; // the skin's copies keep its own state
-        look.mask &= node.getNodeMask();
+        result.mask &= node.getNodeMask();
         if (i + 1 < path.size()) {
             const auto* choice = dynamic_cast<const osg::Switch*>(&node);
-            if (choice && !choice->getChildValue(path[i + 1])) look.mask = 0;
+            if (choice && !choice->getChildValue(path[i + 1])) result.mask = 0;
             if (dynamic_cast<const osg::LOD*>(&node))
                 OSG_NOTICE << onOneLine("osgSkin: clip character: \"" + path.back()->getName() +
                                         "\" is drawn at all distances, not by its level of detail")
                            << std::endl;
         }
         if (!node.getStateSet()) continue;
-        if (!look.state) look.state = new osg::StateSet;
-        look.state->merge(*node.getStateSet());
+        if (!result.state) result.state = new osg::StateSet;
+        result.state->merge(*node.getStateSet());
     }
-    return look;
+    return result;
 }
 
 osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
@@ -291,15 +291,15 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
         const osg::NodePath above = toSkeleton(path);
         if (above.empty() || (result->_skeleton && result->_skeleton != above.back()))
             throw Error("clip character: the skin \"" + skin->getName() +
-                        "\" does not stand under the character's skeleton");
+                        "\" is not below the character's skeleton");
         result->_skeleton = static_cast<osgAnimation::Skeleton*>(above.back());
         result->_toWorld = osg::computeLocalToWorld(above);
-        result->_skins.push_back({skin, osg::computeLocalToWorld(path), lookOf(path)});
+        result->_skins.push_back({skin, osg::computeLocalToWorld(path), appearanceOf(path)});
     }
     if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
-        Rigid rigid{{}, part.getName(), lookOf(path)};
+        Rigid rigid{{}, part.getName(), appearanceOf(path)};
         rigid.joint = boneOf(path);
         for (unsigned int i = 0; i < part.getNumChildren(); ++i)
             rigid.parts.emplace_back(part.getChild(i));
@@ -312,7 +312,7 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
             new osg::MatrixTransform(osg::computeLocalToWorld(below) *
                                      osg::Matrixd::inverse(bone.getInvBindMatrixInSkeletonSpace()));
         toRest->addChild(path.back());
-        result->_rigids.push_back({{toRest}, bone.getName(), lookOf(path)});
+        result->_rigids.push_back({{toRest}, bone.getName(), appearanceOf(path)});
     }
     return result;
 }
@@ -364,27 +364,27 @@ void ClipCharacter::bake(const SampledClip* clip) {
             throw Error("clip character: the clip \"" + clip->name() + "\" cannot pose its skins");
     };
     constexpr std::size_t parts = BakedClip::kParts;
-    std::vector<std::array<SkinMoment, parts + 1>> ways(_skins.size());
-    const auto lookAt = [&](std::size_t k) {
+    std::vector<std::array<SkinMoment, parts + 1>> moments(_skins.size());
+    const auto record = [&](std::size_t k) {
         for (std::size_t i = 0; i < _skins.size(); ++i)
-            ways[i][k] = momentOf(*player._skins[i].skin);
+            moments[i][k] = momentOf(*player._skins[i].skin);
     };
     osg::BoundingBox bounds = _bakedBounds;
     poseAt(0.0);
-    lookAt(parts);
+    record(parts);
     for (std::size_t sample = 0; sample < clip->sampleCount(); ++sample) {
         for (std::size_t i = 0; i < _rigids.size(); ++i)
             baked->rigids[i].push_back(player._rigids[i].transform->getMatrix());
-        for (auto& way : ways) std::swap(way.front(), way.back()); // the last interval's end
+        for (auto& skin : moments) std::swap(skin.front(), skin.back()); // the last interval's end
         for (std::size_t k = 1; k <= parts; ++k) { // up to the next sample, or the first one again
             poseAt(double(sample) + double(k) / double(parts));
-            lookAt(k);
+            record(k);
         }
         for (std::size_t i = 0; i < _skins.size(); ++i) {
             BakedClip::Skin& skin = baked->skins[i];
-            skin.poses.push_back(ways[i].front().pose);
-            skin.bounds.push_back(boundsOf(ways[i].front()));
-            sweptBounds(ways[i], skin.ways);
+            skin.poses.push_back(moments[i].front().pose);
+            skin.bounds.push_back(boundsOf(moments[i].front()));
+            sweptBounds(moments[i], skin.sweeps);
             const osg::BoundingBox& box = skin.bounds.back();
             for (unsigned int corner = 0; corner < 8; ++corner)
                 bounds.expandBy(box.corner(corner) * _skins[i].toWorld);
@@ -395,8 +395,8 @@ void ClipCharacter::bake(const SampledClip* clip) {
 }
 
 ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
-    const osg::ref_ptr<Figure> figure = new Figure;
-    Instance result{figure, new ClipPlayer};
+    const osg::ref_ptr<CopyRoot> root = new CopyRoot;
+    Instance result{root, new ClipPlayer};
     result.node->setName(_character->getName());
     for (const Skin& source : _skins) {
         const osg::ref_ptr<DeformableSkin> skin =
@@ -405,10 +405,10 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         const std::vector<glm::dmat4> rest(skin->getModel()->joints().size(), glm::dmat4(1.0));
         skin->setPose(rest.data(), rest.size());
         const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(source.toWorld);
-        place->setStateSet(source.look.state);
-        place->setNodeMask(source.look.mask);
+        place->setStateSet(source.appearance.state);
+        place->setNodeMask(source.appearance.mask);
         place->addChild(skin);
-        figure->addPart(*place, skin);
+        root->addPart(*place, skin);
         result.player->addSkin(skin);
     }
     for (const Rigid& source : _rigids) {
@@ -417,9 +417,9 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
             if (const auto* skin = dynamic_cast<const DeformableSkin*>(part.get()))
                 part = osg::clone(skin, osg::CopyOp::SHALLOW_COPY);
         const osg::ref_ptr<osg::MatrixTransform> rigid = new RigidCopy(parts, _toWorld);
-        rigid->setStateSet(source.look.state);
-        rigid->setNodeMask(source.look.mask);
-        figure->addPart(*rigid, nullptr);
+        rigid->setStateSet(source.appearance.state);
+        rigid->setNodeMask(source.appearance.mask);
+        root->addPart(*rigid, nullptr);
         result.player->addRigid(rigid, source.joint, _toWorld);
     }
     result.player->_baked = _baked;

@@ -72,11 +72,11 @@ ClipPlayer::ClipPlayer(const ClipPlayer& other, const osg::CopyOp& copyop)
              << std::endl;
 }
 
-void ClipPlayer::setLayer(std::size_t index, const Layer& track) {
+void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
     if (index >= _layers.size()) return;
-    _layers[index] = track;
-    _layers[index].time = finite(track.time);
-    _layers[index].speed = finite(track.speed);
+    _layers[index] = layer;
+    _layers[index].time = finite(layer.time);
+    _layers[index].speed = finite(layer.speed);
 }
 
 void ClipPlayer::setWeight(double weight) {
@@ -277,17 +277,17 @@ void ClipPlayer::findJoints() {
 
 void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
     static thread_local std::vector<JointSample> others;
-    const auto take = [&](const Layer& track, std::vector<JointSample>& to) {
-        to.resize(track.clip->joints().size());
-        SampledClip::Place at = track.clip->place(track.time, track.loop);
+    const auto take = [&](const Layer& layer, std::vector<JointSample>& to) {
+        to.resize(layer.clip->joints().size());
+        SampledClip::Place at = layer.clip->place(layer.time, layer.loop);
         if (!_interpolated) at.share = 0.0;
-        const JointSample* from = track.clip->sample(at.from);
-        const JointSample* next = track.clip->sample(at.to);
+        const JointSample* from = layer.clip->sample(at.from);
+        const JointSample* next = layer.clip->sample(at.to);
         const SampleBlend between(at.share);
         for (std::size_t j = 0; j < to.size(); ++j) to[j] = between(from[j], next[j]);
         if (_root == Root::Moving) return;
-        JointSample& root = to[track.clip->rootJoint()];
-        const GroundMove gone = rootMove(*track.clip, root);
+        JointSample& root = to[layer.clip->rootJoint()];
+        const GroundMove gone = rootMove(*layer.clip, root);
         root.translation -= toGlm(gone.shift);
         if (gone.angle != 0.0)
             root.rotation = glm::angleAxis(-gone.angle, toGlm(_up)) * root.rotation;
@@ -339,16 +339,16 @@ bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
     return set(maps);
 }
 
-const ClipPlayer::Layer* ClipPlayer::trackAlone() const {
+const ClipPlayer::Layer* ClipPlayer::layerAlone() const {
     if (!_layers[1].clip || _weight == 0.0) return _layers.data();
     return _weight == 1.0 ? &_layers[1] : nullptr;
 }
 
 const BakedClip* ClipPlayer::findBaked() const {
-    const Layer* track = trackAlone();
-    if (_baked.empty() || !track || _root != Root::Moving) return nullptr;
+    const Layer* layer = layerAlone();
+    if (_baked.empty() || !layer || _root != Root::Moving) return nullptr;
     const auto baked = std::find_if(_baked.begin(), _baked.end(),
-                                    [&](const auto& b) { return b->clip == track->clip; });
+                                    [&](const auto& b) { return b->clip == layer->clip; });
     if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
         (*baked)->rigids.size() != _rigids.size())
         return nullptr;
@@ -389,8 +389,8 @@ bool ClipPlayer::poseAs(Pose::Twist twist) {
     const BakedClip* baked = findBaked();
     SampledClip::Place at;
     if (baked) {
-        const Layer& track = *trackAlone();
-        at = track.clip->place(track.time, track.loop);
+        const Layer& layer = *layerAlone();
+        at = layer.clip->place(layer.time, layer.loop);
         if ((!_interpolated || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
     }
     if (!knowsJoints()) findJoints();

@@ -59,12 +59,6 @@ std::vector<bool> findLimbs(const SkeletonTree& tree, const JointRoles& roles) {
     return isLimb;
 }
 
-/// The joint with a role, or -1.
-int jointOf(const JointRoles& roles, const std::string& role) {
-    const auto found = roles.joints.find(role);
-    return found == roles.joints.end() ? -1 : found->second.front();
-}
-
 /// The joints of recognised legs: from the first joint to the foot and its descendants, or all
 /// descendants of the first joint where no foot is recognised.
 std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
@@ -72,9 +66,9 @@ std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
     for (const std::string side : {"Left", "Right"}) {
         int top = -1;
         for (const char* part : {"UpperLeg", "LowerLeg", "Foot"})
-            if (top < 0) top = jointOf(roles, side + part);
+            if (top < 0) top = roles.joint(side + part);
         if (top < 0) continue;
-        int end = jointOf(roles, side + "Foot");
+        int end = roles.joint(side + "Foot");
         if (end < 0 || !tree.rest().isInSubtree(end, top)) end = top;
         for (int j = end; j < tree.size(); ++j)
             if (tree.rest().isInSubtree(j, end)) isLeg[static_cast<std::size_t>(j)] = true;
@@ -89,7 +83,7 @@ std::vector<bool> knownLegs(const SkeletonTree& tree, const JointRoles& roles) {
 /// as low as the feet.
 bool isAboveFoot(const SkeletonTree& tree, const JointRoles& roles, int j) {
     for (const char* foot : {"LeftFoot", "RightFoot"}) {
-        const int end = jointOf(roles, foot);
+        const int end = roles.joint(foot);
         if (end >= 0 && end != j && tree.rest().isInSubtree(end, j)) return true;
     }
     return false;

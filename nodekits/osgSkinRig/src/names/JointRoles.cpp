@@ -76,8 +76,8 @@ private:
     /// The joint without a role directly above the fingers or toes, or else the only child.
     int endOf(int lower, const std::vector<std::string>& below) {
         for (const std::string& hung : below) {
-            const std::vector<int> way = freeBetween(lower, find(hung));
-            if (!way.empty()) return way.front();
+            const std::vector<int> free = freeBetween(lower, find(hung));
+            if (!free.empty()) return free.front();
         }
         int only = -1;
         for (const int child : _skeleton.children(lower)) {
@@ -106,9 +106,9 @@ private:
         }
         for (const int j : freeBetween(chest, find("Head"))) give(j, "Neck");
         for (const auto& [side, arm] : {std::make_pair("Left", left), {"Right", right}}) {
-            const std::vector<int> way = freeBetween(chest, arm);
+            const std::vector<int> free = freeBetween(chest, arm);
             const std::string collar = std::string(side) + "Collar";
-            if (way.size() == 1 && find(collar) < 0) give(way[0], collar);
+            if (free.size() == 1 && find(collar) < 0) give(free[0], collar);
         }
     }
 
@@ -123,18 +123,18 @@ private:
 /// Gives unrecognised joints the role that follows from their position in the tree: the
 /// knee between a thigh and its foot, the foot above the toes, the hand above its fingers or alone
 /// below the lower arm, the spine from the hips up to the joint that carries both arms, the neck
-/// from there to the head, the collar bone on the way to an arm. Skips joints whose names say that
+/// from there to the head, the collar bone before an arm. Skips joints whose names say that
 /// they are helpers (twists, ends, props), and keeps existing roles.
 /// \param roles [joint] as in JointNames, empty for none
 void inferMissingRoles(const RestSkeleton& skeleton, std::vector<std::string>& roles) {
     Filler(skeleton, roles).fill();
 }
 
-constexpr std::size_t kFewestRoles = 4;
+constexpr std::size_t kMinRoles = 4;
 
 /// Names that identify fewer of the 14 joints that every body has are worth less than a shape that
 /// identifies all of them.
-constexpr std::size_t kFewestMain = 8;
+constexpr std::size_t kMinMain = 8;
 
 /// A family's names, normalised for comparison.
 struct Dictionary {
@@ -182,7 +182,7 @@ JointRoles rolesByFamily(const RestSkeleton& skeleton, const std::vector<JointNa
     const std::set<std::string> known(plainNames.begin(), plainNames.end());
     const auto consider = [&](const Dictionary& names, bool callers) {
         const std::size_t filled = filledBy(names, known);
-        if (filled < kFewestRoles) return;
+        if (filled < kMinRoles) return;
         if (best.known() && filled <= best.joints.size()) return;
         best = rolesBy(names, plainNames);
         byCaller = callers;
@@ -308,17 +308,17 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
     bool byCaller = false;
     JointRoles result = rolesByFamily(skeleton, extra, byCaller);
     const WordRoles words = wordRoles(skeleton);
-    std::size_t told = mainRoles(result.roles);
+    std::size_t identified = mainRoles(result.roles);
     if (!byCaller) {
         // Where one name of a family's skeleton was changed, the other names keep their meaning.
-        if (mainRoles(words.roles) > told + (result.known() ? 1 : 0))
-            result = madeOf(words.roles, kToldByWords);
+        if (mainRoles(words.roles) > identified + (result.known() ? 1 : 0))
+            result = madeOf(words.roles, kMixedNames);
         else if (result.known())
             complete(result, words.roles);
-        told = mainRoles(result.roles);
-        if (told < kFewestMain) {
+        identified = mainRoles(result.roles);
+        if (identified < kMinMain) {
             const std::vector<std::string> shape = shapeRoles(skeleton);
-            if (mainRoles(shape) > told) result = madeOf(shape, kInferredFromGeometry);
+            if (mainRoles(shape) > identified) result = madeOf(shape, kInferredFromGeometry);
         }
         if (result.known()) {
             inferMissingRoles(skeleton, result.roles);

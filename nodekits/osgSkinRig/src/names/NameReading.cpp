@@ -184,7 +184,7 @@ private:
         if (takeSide(_rest)) _rest.clear();
     }
 
-    void dropWhatLeadsHere() {
+    void dropPositionalWords() {
         if (!_rest.empty()) return;
         bool centred = false;
         for (; _end > 0; --_end) {
@@ -198,7 +198,7 @@ private:
 
     /// The result with its prefix; nothing where the part has no sides.
     std::optional<NameReading> finished() {
-        dropWhatLeadsHere();
+        dropPositionalWords();
         for (std::size_t w = 0; w < _end; ++w) {
             // A number in the prefix counts joints ("01_Hips") or copies of a figure. A side
             // further ahead still counts.
@@ -455,7 +455,7 @@ namespace {
 using Readings = std::vector<std::optional<NameReading>>;
 
 /// A prefix that a skeleton shares has at least so many joints.
-constexpr std::size_t kFewestShared = 4;
+constexpr std::size_t kMinShared = 4;
 
 /// A foreign word is a valid prefix where nearly all joints have it: a figure may be called Wing.
 constexpr double kMaxJoints = 0.8;
@@ -508,7 +508,7 @@ WordRoles wordRoles(const RestSkeleton& skeleton) {
     }
     std::size_t most = 0, tried = 0;
     for (const auto& [prefix, count] : prefixes) {
-        if (count < kFewestShared || count < most || ++tried > kMaxPrefixes) continue;
+        if (count < kMinShared || count < most || ++tried > kMaxPrefixes) continue;
         if (foreign.count(prefix) != 0) {
             const auto sharing =
                 std::count_if(names.begin(), names.end(),
@@ -520,7 +520,7 @@ WordRoles wordRoles(const RestSkeleton& skeleton) {
         const std::size_t filled = distinct(roles).size();
         // Rigify has each bone twice: "DEF-" deforms the skin, "ORG-" only controls the former.
         const bool preferred = filled == most && prefix == "def";
-        if (filled < kFewestShared || (filled <= most && !preferred)) continue;
+        if (filled < kMinShared || (filled <= most && !preferred)) continue;
         most = filled;
         result.roles = std::move(roles);
     }

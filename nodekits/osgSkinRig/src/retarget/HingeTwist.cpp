@@ -46,13 +46,13 @@ std::vector<Limb> findLimbs(const RestSkeleton& rig, const JointRoles& roles) {
     for (const std::string side : {"Left", "Right"})
         for (const auto& parts : kLimbs) {
             std::size_t joints[3];
-            bool known = true;
-            for (int i = 0; i < 3 && known; ++i) {
-                const auto found = roles.joints.find(side + parts[i]);
-                known = found != roles.joints.end();
-                if (known) joints[i] = static_cast<std::size_t>(found->second.front());
+            bool isKnown = true;
+            for (int i = 0; i < 3; ++i) {
+                const int joint = roles.joint(side + parts[i]);
+                isKnown = isKnown && joint >= 0;
+                joints[i] = static_cast<std::size_t>(joint);
             }
-            if (!known) continue;
+            if (!isKnown) continue;
             auto aboveHinge = between(rig, joints[0], joints[1]);
             auto aboveEnd = between(rig, joints[1], joints[2]);
             if (aboveHinge && aboveEnd)

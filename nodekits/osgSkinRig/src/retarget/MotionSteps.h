@@ -92,10 +92,10 @@ private:
 /// shifted by one number for the whole clip, so that the feet's lowest position is the floor that
 /// the rig stands on at rest. A jump stays a jump: the shift is taken from the frames in which the
 /// feet are lowest. A motion that begins far from the origin begins where the rig rests.
-class RootMotion {
+class RootPath {
 public:
     /// \param body the rig and its motion; it must outlive this
-    explicit RootMotion(const RetargetTarget& body);
+    explicit RootPath(const RetargetTarget& body);
 
     double scale() const { return _scale; }
 

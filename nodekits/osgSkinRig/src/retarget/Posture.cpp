@@ -23,18 +23,12 @@ double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-int jointOf(const JointRoles& roles, const std::string& role) {
-    const auto found = roles.joints.find(role);
-    return found == roles.joints.end() ? -1 : found->second.front();
-}
-
 /// The limbs of both sides, such as "UpperLeg", "LowerLeg" and "Foot".
 LimbPair limbsOf(const JointRoles& roles, const char* upper, const char* lower, const char* end) {
     LimbPair result;
     for (std::size_t s = 0; s < 2; ++s) {
         const std::string side = s == 0 ? "Left" : "Right";
-        result[s] = {jointOf(roles, side + upper), jointOf(roles, side + lower),
-                     jointOf(roles, side + end)};
+        result[s] = {roles.joint(side + upper), roles.joint(side + lower), roles.joint(side + end)};
     }
     return result;
 }
@@ -66,30 +60,30 @@ constexpr double kOnFloor = 0.25; ///< of a body on the floor
 
 } // namespace
 
-bool Stance::stands() const {
+bool Posture::stands() const {
     return standsLeaning() && lean <= kMaxLean;
 }
 
-bool Stance::standsLeaning() const {
+bool Posture::standsLeaning() const {
     return knees <= kMaxKnees && spread <= kMaxSpread && lean <= 90.0 && tilt <= kMaxTilt;
 }
 
-double Stance::untidiness() const {
+double Posture::untidiness() const {
     return knees / kMaxKnees + spread / kMaxSpread + lean / kMaxLean + tilt / kMaxTilt +
            elbows / 90.0 + asymmetry / 45.0;
 }
 
-StanceJoints::StanceJoints(const JointRoles& roles)
+PostureJoints::PostureJoints(const JointRoles& roles)
     : _legs(legsOf(roles)), _arms(limbsOf(roles, "UpperArm", "LowerArm", "Hand")) {
     for (const char* role : {"Neck", "Head"})
-        if (_top < 0) _top = jointOf(roles, role);
+        if (_top < 0) _top = roles.joint(role);
     _complete = isComplete(_legs) && (_top >= 0 || isComplete(_arms));
 }
 
-std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& positions) const {
+std::optional<Posture> PostureJoints::measure(const std::vector<glm::dvec3>& positions) const {
     const auto at = [&](int j) { return positions[static_cast<std::size_t>(j)]; };
-    Stance result;
-    glm::dvec3 ways[2];
+    Posture result;
+    glm::dvec3 directions[2];
     for (std::size_t s = 0; s < 2; ++s) {
         const LimbJoints& leg = _legs[s];
         const glm::dvec3 thigh = at(leg.lower) - at(leg.upper);
@@ -99,15 +93,15 @@ std::optional<Stance> StanceJoints::measure(const std::vector<glm::dvec3>& posit
             return std::nullopt;
         result.knees = std::max(result.knees, degreesBetween(thigh, shin));
         result.leg += 0.5 * (glm::length(thigh) + glm::length(shin));
-        ways[s] = glm::normalize(whole);
+        directions[s] = glm::normalize(whole);
     }
-    const glm::dvec3 down = ways[0] + ways[1];
+    const glm::dvec3 down = directions[0] + directions[1];
     if (!(glm::length(down) > 1e-6)) return std::nullopt;
     result.up = -glm::normalize(down);
     result.hips = 0.5 * (at(_legs[0].upper) + at(_legs[1].upper));
     result.lowest =
         std::min(glm::dot(at(_legs[0].end), result.up), glm::dot(at(_legs[1].end), result.up));
-    result.spread = 0.5 * degreesBetween(ways[0], ways[1]);
+    result.spread = 0.5 * degreesBetween(directions[0], directions[1]);
 
     const glm::dvec3 top = _top >= 0 ? at(_top) : 0.5 * (at(_arms[0].upper) + at(_arms[1].upper));
     const glm::dvec3 across = at(_legs[0].upper) - at(_legs[1].upper);

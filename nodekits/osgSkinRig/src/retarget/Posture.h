@@ -22,7 +22,7 @@
 namespace osgSkin {
 
 /// A body's posture in one pose, whatever the pose's axes.
-struct Stance {
+struct Posture {
     glm::dvec3 up{0.0};     ///< unit, from the feet to the hips along the legs
     glm::dvec3 trunk{0.0};  ///< from the hips to the head, neck or shoulders
     glm::dvec3 hips{0.0};   ///< middle of both hip joints
@@ -54,10 +54,10 @@ struct LimbJoints {
 using LimbPair = std::array<LimbJoints, 2>; ///< left, right
 
 /// The joints from which a body's posture is measured.
-class StanceJoints {
+class PostureJoints {
 public:
     /// \param roles of a skeleton's joints
-    explicit StanceJoints(const JointRoles& roles);
+    explicit PostureJoints(const JointRoles& roles);
 
     /// Whether both legs and a trunk are known.
     bool complete() const { return _complete; }
@@ -67,7 +67,7 @@ public:
 
     /// Nothing where a bone of the legs or the trunk has no length.
     /// \param positions of the skeleton's joints
-    std::optional<Stance> measure(const std::vector<glm::dvec3>& positions) const;
+    std::optional<Posture> measure(const std::vector<glm::dvec3>& positions) const;
 
 private:
     LimbPair _legs, _arms;

@@ -46,10 +46,10 @@ std::string RetargetReport::text() const {
             out << onOneLine(entry.motionJoint) << ", aligned by " << entry.alignmentDegrees
                 << " degrees";
         if (entry.flippedFrames > 0)
-            out << ", upside down in " << entry.flippedFrames << " samples: rolled back";
+            out << ", upside down in " << entry.flippedFrames << " samples: corrected";
         if (entry.twistShared > 0)
             out << ", twisted by more than 90 degrees in " << entry.twistShared
-                << " samples: the excess is shared out";
+                << " samples: the excess is distributed";
         out << "\n";
     }
     for (const std::string& joint : unusedMotionJoints)
@@ -169,8 +169,7 @@ Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map
 Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
              RetargetReport* report) {
     const std::vector<int>& motionJoint = map.motionJoint;
-    const UprightFrames frames =
-        findUprightFrames(SkeletonTree(rig), SkeletonTree(motion.skeleton), map);
+    const UprightFrames frames = findUprightFrames(rig, motion.skeleton, map);
     const RestSkeleton uprightRig = rotated(rig, frames.rigUpright);
     const RestSkeleton uprightMotion = rotated(motion.skeleton, frames.motionUpright);
     const RetargetTarget body(uprightRig, uprightMotion, map);
@@ -185,7 +184,7 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
     clip.rotations.reserve(clip.frames * clip.joints);
 
     FootRoll feetRoll(body, alignment);
-    RootMotion root(body);
+    RootPath root(body);
     MeasureFeet feet(body);
     StandingCheck standing(map.rig, map.motion);
     std::vector<glm::dquat> motionWorld;
@@ -245,11 +244,12 @@ std::vector<std::string> idleJoints(const JointRoles& roles, const RestSkeleton&
 }
 
 std::string listed(const std::vector<std::string>& names) {
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMaxNames = 4;
     std::string result;
-    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
         result += (i == 0 ? "\"" : ", \"") + names[i] + "\"";
-    if (names.size() > kMost) result += " and " + std::to_string(names.size() - kMost) + " more";
+    if (names.size() > kMaxNames)
+        result += " and " + std::to_string(names.size() - kMaxNames) + " more";
     return result;
 }
 
@@ -257,14 +257,15 @@ std::string listed(const std::vector<std::string>& names) {
 void noteShape(const JointRoles& roles, const RestSkeleton& skeleton, const std::string& whose,
                std::vector<std::string>& notes) {
     if (roles.family != kInferredFromGeometry) return;
-    std::string told;
+    std::string found;
     for (const auto& [role, joints] : roles.joints)
         for (const char* shown : {"Hips", "Head", "LeftUpperArm", "LeftUpperLeg"})
             if (role == shown)
-                told += (told.empty() ? "" : ", ") + role + " is \"" +
-                        skeleton.joints[static_cast<std::size_t>(joints[0])].name + "\"";
-    notes.push_back("the " + whose +
-                    "'s joint names say nothing, its parts are told by its shape: " + told);
+                found += (found.empty() ? "" : ", ") + role + " is \"" +
+                         skeleton.joints[static_cast<std::size_t>(joints[0])].name + "\"";
+    notes.push_back(
+        "the " + whose +
+        "'s joint names are not known; its parts are inferred from its shape: " + found);
 }
 
 /// Where joints are matched by equal names alone, those left over on both sides may be the same
@@ -281,9 +282,8 @@ void noteLeftOver(const JointPairs& map, const RestSkeleton& rig, const RestSkel
         if (std::find(drivers.begin(), drivers.end(), int(m)) == drivers.end())
             unused.push_back(motion.joints[m].name);
     if (!still.empty() && !unused.empty())
-        notes.push_back("the motion has nothing for " + listed(still) +
-                        " of the rig, and the rig nothing for " + listed(unused) +
-                        " of the motion" + expected);
+        notes.push_back("no motion data for " + listed(still) + " of the rig; " + listed(unused) +
+                        " of the motion not used" + expected);
 }
 
 /// Notes for a person: arms, legs or hips that exist in only one of both skeletons' matches, and
@@ -303,15 +303,15 @@ std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
             return drivers[joint] < 0 && options.joints.count(rig.joints[joint].name) == 0;
         });
         if (!idle.empty())
-            notes.push_back("the motion has nothing for " + listed(idle) +
-                            " of the rig, which stay as they rest" + expected);
+            notes.push_back("no motion data for " + listed(idle) +
+                            " of the rig; they keep their rest pose" + expected);
     }
     if (map.motion.known()) {
         const auto idle = idleJoints(map.motion, motion, [&](int j) {
             return std::find(drivers.begin(), drivers.end(), j) == drivers.end();
         });
         if (!idle.empty())
-            notes.push_back("the rig has nothing for " + listed(idle) + " of the motion" +
+            notes.push_back("the rig has no joint for " + listed(idle) + " of the motion" +
                             expected);
     }
     if (map.rig.known() || map.motion.known()) return notes;

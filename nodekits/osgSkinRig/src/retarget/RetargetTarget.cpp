@@ -8,6 +8,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/BodyDirections>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -76,11 +77,10 @@ int byName(const JointPairs& map, const ByName& motion, const std::string& name,
 /// other.
 bool isOneNameOnBothSides(const JointPairs& map, const RestSkeleton& rig,
                           const RestSkeleton& motion) {
-    const auto left = map.rig.joints.find("LeftUpperLeg");
-    const auto right = map.motion.joints.find("RightUpperLeg");
-    return left != map.rig.joints.end() && right != map.motion.joints.end() &&
-           rig.joints[static_cast<std::size_t>(left->second.front())].name ==
-               motion.joints[static_cast<std::size_t>(right->second.front())].name;
+    const int left = map.rig.joint("LeftUpperLeg"), right = map.motion.joint("RightUpperLeg");
+    return left >= 0 && right >= 0 &&
+           rig.joints[static_cast<std::size_t>(left)].name ==
+               motion.joints[static_cast<std::size_t>(right)].name;
 }
 
 } // namespace
@@ -262,97 +262,49 @@ namespace {
 /// symmetric.
 const double kNearlyQuarter = glm::radians(1.0);
 
-/// One skeleton with its joints' roles, or else the roles of the joints that they are mapped to.
-class Body {
-public:
-    Body(const SkeletonTree& tree, const std::vector<std::string>& roles)
-        : _tree(tree), _roles(roles) {}
-
-    /// From one part of the body to another; zero where either is missing.
-    glm::dvec3 bone(const std::string& from, const std::string& to) const {
-        const std::optional<glm::dvec3> a = centre(from), b = centre(to);
-        return a && b ? *b - *a : glm::dvec3(0.0);
-    }
-
-    double reach() const { return _tree.reach(); }
-
-private:
-    std::optional<glm::dvec3> centre(const std::string& role) const {
-        for (std::size_t j = 0; j < _roles.size(); ++j)
-            if (_roles[j] == role) return _tree.centre(static_cast<int>(j));
-        return std::nullopt;
-    }
-
-    const SkeletonTree& _tree;
-    const std::vector<std::string>& _roles;
-};
-
-/// The axis that points up, see nearAxis(): along the thighs, or along trunk and shins where these
-/// agree, as a sitting body's thighs point forward. A body sitting on the floor has only its trunk
-/// upright.
-int upOf(const Body& body) {
-    glm::dvec3 thighs(0.0), shins(0.0), trunk(0.0);
-    for (const std::string side : {"Left", "Right"}) {
-        thighs += body.bone(side + "LowerLeg", side + "UpperLeg");
-        shins += body.bone(side + "Foot", side + "LowerLeg");
-        glm::dvec3 top = body.bone(side + "UpperLeg", "Neck");
-        if (top == glm::dvec3(0.0)) top = body.bone(side + "UpperLeg", "Head");
-        if (top == glm::dvec3(0.0)) top = body.bone(side + "UpperLeg", side + "UpperArm");
-        trunk += top;
-    }
-    const int byTrunk = nearAxis(trunk);
-    if (byTrunk == 2) return byTrunk;
-    return byTrunk == nearAxis(shins) && byTrunk != 0 ? byTrunk : nearAxis(thighs);
-}
-
-glm::dquat uprightRotation(const Body& body) {
-    const int up = upOf(body);
-    // With drawn-up legs, or without legs, up is unknown.
-    if (up == 0 || up == 2) return {1.0, 0.0, 0.0, 0.0};
-    glm::dvec3 along(0.0);
-    along[std::abs(up) - 1] = up > 0 ? 1.0 : -1.0;
-    return shortestRotation(along, {0.0, 1.0, 0.0});
+glm::dquat uprightRotation(const BodyDirections& body) {
+    const int up = body.up(2);
+    if (up == 0) return {1.0, 0.0, 0.0, 0.0};
+    return shortestRotation(alongAxis(up), {0.0, 1.0, 0.0});
 }
 
 /// The heading of the upright body's left side: the angle about +y from +x.
-std::optional<double> heading(const Body& body, const glm::dquat& upright) {
+std::optional<double> heading(const BodyDirections& body, const glm::dquat& upright) {
     // Hips are rigid; captured shoulders are rarely level.
     for (const std::string part : {"UpperLeg", "UpperArm"}) {
-        const glm::dvec3 left = upright * body.bone("Right" + part, "Left" + part);
-        const double across = std::hypot(left.x, left.z);
-        if (across > 1e-3 * body.reach() && across > 0.8 * glm::length(left))
-            return std::atan2(-left.z, left.x);
+        const glm::dvec3 left = upright * body.between("Right" + part, "Left" + part);
+        if (std::hypot(left.x, left.z) > 0.8) return std::atan2(-left.z, left.x);
     }
     return std::nullopt;
 }
 
-std::vector<std::string> completed(const std::vector<std::string>& own,
-                                   const std::vector<int>& other,
-                                   const std::vector<std::string>& theirs) {
-    std::vector<std::string> roles = own;
-    for (std::size_t j = 0; j < roles.size(); ++j)
-        if (other[j] >= 0) roles[j] = theirs[static_cast<std::size_t>(other[j])];
-    return roles;
-}
-
-std::vector<int> inverse(const std::vector<int>& motionJoint, std::size_t motionJoints) {
-    std::vector<int> result(motionJoints, -1);
-    for (std::size_t j = 0; j < motionJoint.size(); ++j)
-        if (motionJoint[j] >= 0)
-            result[static_cast<std::size_t>(motionJoint[j])] = static_cast<int>(j);
+/// A skeleton's own roles, or else those of the other skeleton's joints that it is mapped to.
+JointRoles completed(const JointRoles& own, const std::vector<int>& other,
+                     const JointRoles& theirs) {
+    JointRoles result = own;
+    for (std::size_t j = 0; j < other.size() && !own.known(); ++j) {
+        if (other[j] < 0) continue;
+        const std::string& role = theirs.roles[static_cast<std::size_t>(other[j])];
+        if (!role.empty()) result.joints[role].push_back(static_cast<int>(j));
+    }
     return result;
 }
 
 } // namespace
 
-UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
+JointRoles motionRolesOf(const JointPairs& map) {
+    std::vector<int> rigJoint(map.motion.roles.size(), -1);
+    for (std::size_t j = 0; j < map.motionJoint.size(); ++j)
+        if (map.motionJoint[j] >= 0)
+            rigJoint[static_cast<std::size_t>(map.motionJoint[j])] = static_cast<int>(j);
+    return completed(map.motion, rigJoint, map.rig);
+}
+
+UprightFrames findUprightFrames(const RestSkeleton& rig, const RestSkeleton& motion,
                                 const JointPairs& map) {
-    std::vector<std::string> rigRoles = map.rig.roles, motionRoles = map.motion.roles;
-    if (!map.rig.known()) rigRoles = completed(rigRoles, map.motionJoint, motionRoles);
-    if (!map.motion.known())
-        motionRoles =
-            completed(motionRoles, inverse(map.motionJoint, motionRoles.size()), rigRoles);
-    const Body ours(rig, rigRoles), theirs(motion, motionRoles);
+    const JointRoles rigRoles = completed(map.rig, map.motionJoint, map.motion);
+    const JointRoles motionRoles = motionRolesOf(map);
+    const BodyDirections ours(rigRoles, centresOf(rig)), theirs(motionRoles, centresOf(motion));
     UprightFrames result;
     result.rigUpright = uprightRotation(ours);
     result.motionUpright = uprightRotation(theirs);

@@ -72,13 +72,15 @@ BonePair alongSoles(const RetargetTarget& body, int j, const BonePair& bone);
 /// its parent's rotation, so that it does not rotate against the limb.
 std::vector<glm::dquat> alignBones(const RetargetTarget& body);
 
+/// The roles of the motion's joints: its own, or else those of the rig's joints that they drive.
+JointRoles motionRolesOf(const JointPairs& map);
+
 /// Rotations from a rig's and a motion's space to a common upright one, found by both skeletons'
 /// rest poses.
 ///
-/// Up is the coordinate axis along the thighs, or along trunk and shins where these agree and the
-/// body sits; left is from the right hip to the left one, or else from shoulder to shoulder. Both
-/// need the roles of joints: without roles, +y is taken as up; without pairs, both skeletons are
-/// taken to face the same direction.
+/// Up is BodyDirections::up(); left is from the right hip to the left one, or else from shoulder to
+/// shoulder. Both need the roles of joints: without roles, +y is taken as up; without pairs, both
+/// skeletons are taken to face the same direction.
 struct UprightFrames {
     glm::dquat rigUpright{1.0, 0.0, 0.0, 0.0}; ///< from the rig's space to one with +y up
 
@@ -87,7 +89,7 @@ struct UprightFrames {
 };
 
 /// A skeleton without roles takes those of the joints that it is mapped to.
-UprightFrames findUprightFrames(const SkeletonTree& rig, const SkeletonTree& motion,
+UprightFrames findUprightFrames(const RestSkeleton& rig, const RestSkeleton& motion,
                                 const JointPairs& map);
 
 /// The skeleton, rotated.

@@ -55,7 +55,7 @@ Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
     return result;
 }
 
-constexpr std::size_t kFewestBones = 5; ///< that must agree for two skeletons to be the same
+constexpr std::size_t kMinBones = 5; ///< that must agree for two skeletons to be the same
 constexpr double kTolerance = 0.02; ///< sum of the bones' differences over the sum of their lengths
 constexpr double kLongBone = 0.2;   ///< over the longest; fingers differ from hand to hand
 const double kSameDirection = std::cos(glm::radians(25.0));
@@ -100,7 +100,7 @@ bool doDirectionsAgree(const std::vector<glm::dvec3>& ours, const std::vector<gl
         if (!(glm::dot(ours[b], theirs[b]) >= kSameDirection * a * c)) return false;
         ++agree;
     }
-    return agree >= kFewestBones;
+    return agree >= kMinBones;
 }
 
 } // namespace
@@ -199,41 +199,29 @@ constexpr const char* kNeverAlong =
     "the actor's legs are never along the axis of the motion's zero pose: he lies, or the zero "
     "pose does";
 
-std::vector<glm::dvec3> centresOf(const RestSkeleton& skeleton) {
-    std::vector<glm::dvec3> result;
-    for (const RestJoint& joint : skeleton.joints) result.push_back(joint.centre);
-    return result;
-}
-
-glm::dvec3 alongAxis(int axis) {
-    glm::dvec3 result(0.0);
-    result[std::abs(axis) - 1] = axis > 0 ? 1.0 : -1.0;
-    return result;
-}
-
 /// One sample of a motion.
 struct Sample {
     std::size_t frame;
-    Stance stance;
+    Posture posture;
     int axis;             ///< along which the legs are, as nearAxis() has it
     glm::dvec3 low, high; ///< the box of all joints
 
     /// Whether the body is straight along an axis: the actor stands, or lies.
-    bool isStraight() const { return axis != 0 && stance.stands(); }
+    bool isStraight() const { return axis != 0 && posture.stands(); }
 
     /// Height of the lowest joint along an axis.
     double lowest(int up) const { return up > 0 ? low[up - 1] : -high[-up - 1]; }
 
     /// Whether the feet are on a floor through the origin, if the actor stands.
     bool hasFeetOnFloor() const {
-        const double height = glm::dot(stance.hips, stance.up) / stance.leg;
-        return height > 0.5 && height < 1.7 && std::abs(stance.lowest) < 0.4 * stance.leg;
+        const double height = glm::dot(posture.hips, posture.up) / posture.leg;
+        return height > 0.5 && height < 1.7 && std::abs(posture.lowest) < 0.4 * posture.leg;
     }
 
     /// Whether the body lies on the floor through the origin, across an axis.
     bool liesOnFloor(int up) const {
-        const double height = glm::dot(stance.hips, alongAxis(up)) / stance.leg;
-        return lowest(up) > -0.03 * stance.leg && height > 0.05 && height < 0.4;
+        const double height = glm::dot(posture.hips, alongAxis(up)) / posture.leg;
+        return lowest(up) > -0.03 * posture.leg && height > 0.05 && height < 0.4;
     }
 };
 
@@ -299,9 +287,9 @@ struct Samples {
             if (stand ? !sample.isStraight() || sample.axis != up
                       : anyStraight && !sample.isStraight())
                 continue;
-            double untidiness = sample.stance.untidiness();
+            double untidiness = sample.posture.untidiness();
             if (stand && (isKnown || alsoLie)) {
-                const double cosine = glm::dot(sample.stance.up, alongAxis(up));
+                const double cosine = glm::dot(sample.posture.up, alongAxis(up));
                 untidiness += glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
             }
             if (result != nullptr && untidiness >= tidiest) continue;
@@ -315,7 +303,7 @@ struct Samples {
     /// is up, unless the actor jumps or climbs.
     double floorRange(int up) const {
         std::vector<double> heights;
-        for (const Sample& sample : list) heights.push_back(sample.lowest(up) / sample.stance.leg);
+        for (const Sample& sample : list) heights.push_back(sample.lowest(up) / sample.posture.leg);
         std::sort(heights.begin(), heights.end());
         return heights[heights.size() - 1 - heights.size() / 20] - heights[heights.size() / 20];
     }
@@ -346,17 +334,17 @@ struct Samples {
 
 class Sampler {
 public:
-    Sampler(const Motion& motion, const StanceJoints& joints) : _motion(motion), _joints(joints) {}
+    Sampler(const Motion& motion, const PostureJoints& joints) : _motion(motion), _joints(joints) {}
 
-    Samples look() {
+    Samples measure() {
         Samples result;
         const std::size_t step = std::max<std::size_t>(1, _motion.frames / kMaxSamples);
         for (std::size_t f = 0; f < _motion.frames; f += step) {
             ++result.all;
             pose(f);
-            const auto stance = _joints.measure(_positions);
-            if (!stance) continue;
-            Sample sample{f, *stance, nearAxis(stance->up), _positions[0], _positions[0]};
+            const auto posture = _joints.measure(_positions);
+            if (!posture) continue;
+            Sample sample{f, *posture, nearAxis(posture->up), _positions[0], _positions[0]};
             for (const glm::dvec3& position : _positions) {
                 sample.low = glm::min(sample.low, position);
                 sample.high = glm::max(sample.high, position);
@@ -370,14 +358,14 @@ public:
     /// \param up axis, 0 if unknown
     Motion fromSample(const Sample& sample, int up) {
         pose(sample.frame);
-        return from(sample.stance, sample.axis == 0 ? 0 : up, _motion.rootPositions[sample.frame]);
+        return from(sample.posture, sample.axis == 0 ? 0 : up, _motion.rootPositions[sample.frame]);
     }
 
     /// The motion relative to its zero pose, rotated upright, with the trunk over the legs.
-    /// \param zero its stance
+    /// \param zero its posture
     /// \param roles of the motion's joints
     /// \param up axis, 0 if unknown
-    Motion fromZero(const Stance& zero, const JointRoles& roles, int up) {
+    Motion fromZero(const Posture& zero, const JointRoles& roles, int up) {
         const RestSkeleton& skeleton = _motion.skeleton;
         const int legs[] = {roles.joints.at("LeftUpperLeg").front(),
                             roles.joints.at("RightUpperLeg").front()};
@@ -400,9 +388,9 @@ public:
 
 private:
     /// The motion relative to the pose in `_world`, with the hips above the origin.
-    Motion from(const Stance& stance, int up, glm::dvec3 root) {
-        const int own = nearAxis(stance.up);
-        glm::dvec3 axis = own == 0 ? stance.up : alongAxis(own), hips = stance.hips;
+    Motion from(const Posture& posture, int up, glm::dvec3 root) {
+        const int own = nearAxis(posture.up);
+        glm::dvec3 axis = own == 0 ? posture.up : alongAxis(own), hips = posture.hips;
         if (up != 0 && up != own) {
             const glm::dquat turn = shortestRotation(axis, alongAxis(up));
             for (glm::dquat& q : _world) q = glm::normalize(turn * q);
@@ -419,31 +407,17 @@ private:
     }
 
     const Motion& _motion;
-    const StanceJoints& _joints;
+    const PostureJoints& _joints;
     std::vector<glm::dquat> _world;
     std::vector<glm::dvec3> _positions;
 };
 
-/// Roles of a motion's joints: its own, or else those of the rig's joints that they drive.
-JointRoles rolesOf(const JointRoles& own, const JointRoles& rig,
-                   const std::vector<int>& motionJoint) {
-    if (own.known()) return own;
-    JointRoles result = own;
-    result.joints.clear();
-    for (const auto& [role, joints] : rig.joints)
-        for (const int j : joints) {
-            const int driver = motionJoint[static_cast<std::size_t>(j)];
-            if (driver >= 0) result.joints[role].push_back(driver);
-        }
-    return result;
-}
-
 /// Why a pose does not stand: "knees bent by 90 degrees, ...".
-std::string faults(const std::optional<Stance>& stance) {
-    if (!stance) return "bones without a length";
+std::string faults(const std::optional<Posture>& posture) {
+    if (!posture) return "bones without a length";
     const auto whole = [](double degrees) { return std::to_string(std::lround(degrees)); };
-    return "knees bent by " + whole(stance->knees) + ", legs " + whole(2.0 * stance->spread) +
-           " apart, trunk leaning by " + whole(stance->lean) + " degrees";
+    return "knees bent by " + whole(posture->knees) + ", legs " + whole(2.0 * posture->spread) +
+           " apart, trunk leaning by " + whole(posture->lean) + " degrees";
 }
 
 /// The axis that is up in the motion's space, as nearAxis() has it; 0 if it is unknown.
@@ -452,7 +426,7 @@ std::string faults(const std::optional<Stance>& stance) {
 /// axis. A lying actor is straight along an axis, too: without such a floor, the zero pose's legs
 /// tell, if they are straight and he does not lie on the floor y = 0, or +y is up if he ever stands
 /// along it.
-int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<Stance>& zero,
+int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<Posture>& zero,
          const Samples& samples) {
     if (stated != RetargetOptions::Up::Unknown)
         return stated == RetargetOptions::Up::Y ? kPlusY : kPlusZ;
@@ -479,7 +453,7 @@ int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<S
 /// pose.
 void countFromRig(const Motion& motion, const RestSkeleton& rig,
                   const std::vector<int>& motionJoint, const SameSkeleton& same,
-                  const std::optional<Stance>& rest, const std::optional<Stance>& zero, int up,
+                  const std::optional<Posture>& rest, const std::optional<Posture>& zero, int up,
                   StandingPose& result) {
     if (!rest || !rest->stands()) {
         result.copied = same;
@@ -509,19 +483,19 @@ void countFromRig(const Motion& motion, const RestSkeleton& rig,
 StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
                               RetargetOptions::Up stated) {
     StandingPose result;
-    const JointRoles motionRoles = rolesOf(map.motion, map.rig, map.motionJoint);
-    const StanceJoints joints(motionRoles);
-    const StanceJoints rigJoints(map.rig);
+    const JointRoles roles = motionRolesOf(map);
+    const PostureJoints joints(roles);
+    const PostureJoints rigJoints(map.rig);
     const auto same = SameSkeleton::find(rig, motion.skeleton, map.motionJoint);
     if (!joints.complete()) return result; // unknown roles
-    const std::optional<Stance> zero = joints.measure(centresOf(motion.skeleton));
+    const std::optional<Posture> zero = joints.measure(centresOf(motion.skeleton));
     const bool zeroStands = zero && zero->stands();
     Sampler sampler(motion, joints);
-    const Samples samples = sampler.look();
+    const Samples samples = sampler.measure();
     const int up = upOf(motion, stated, zero, samples);
 
     if (rigJoints.complete()) {
-        const std::optional<Stance> rest = rigJoints.measure(centresOf(rig));
+        const std::optional<Posture> rest = rigJoints.measure(centresOf(rig));
         if (same) {
             countFromRig(motion, rig, map.motionJoint, *same, rest, zero, up, result);
             return result;
@@ -544,17 +518,17 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     const Sample* best = samples.best(up, isKnown);
     const bool isStraight = best != nullptr && best->isStraight();
     if (!isStraight && zero && zero->standsLeaning()) {
-        result.counted = sampler.fromZero(*zero, motionRoles, up);
+        result.counted = sampler.fromZero(*zero, roles, up);
         result.notes.push_back(why + ", nor does any sample: its rotations are counted from that "
                                      "pose, straightened");
         return result;
     }
-    const bool nearlyStands = best != nullptr && (best->axis != 0 || best->stance.stands()) &&
-                              best->stance.untidiness() <= kNearlyStands;
+    const bool nearlyStands = best != nullptr && (best->axis != 0 || best->posture.stands()) &&
+                              best->posture.untidiness() <= kNearlyStands;
     if (!isStraight && !nearlyStands)
         throw Error("retarget: " + why + ", nor does any of its " + std::to_string(samples.all) +
                     " samples (the best has " +
-                    faults(best == nullptr ? std::nullopt : std::optional(best->stance)) +
+                    faults(best == nullptr ? std::nullopt : std::optional(best->posture)) +
                     "); expected one with straight legs and trunk, such as a T-pose, to tell "
                     "what its rotations mean");
     result.counted = sampler.fromSample(*best, up);

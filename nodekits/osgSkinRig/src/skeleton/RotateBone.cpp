@@ -97,8 +97,8 @@ bool lookAt(osgAnimation::Bone& bone, const osg::Vec3d& forward, const osg::Vec3
 LimbRotations reachRotations(const osg::Vec3d& first, const osg::Vec3d& middle,
                              const osg::Vec3d& end, const osg::Vec3d& target,
                              const osg::Vec3d& pole) {
-    const osg::Vec3d upper = middle - first, lower = end - middle, way = target - first;
-    const double a = upper.length(), b = lower.length(), distance = way.length();
+    const osg::Vec3d upper = middle - first, lower = end - middle, toTarget = target - first;
+    const double a = upper.length(), b = lower.length(), distance = toTarget.length();
     if (!(a > 0.0) || !(b > 0.0) || !std::isfinite(a + b + distance) || !isFinite(pole)) return {};
     LimbRotations result;
     const double reached = std::clamp(distance, std::abs(a - b), a + b);
@@ -111,9 +111,9 @@ LimbRotations reachRotations(const osg::Vec3d& first, const osg::Vec3d& middle,
 
     const osg::Vec3d bent = upper + result.lower * lower;
     if (!(distance > 0.0) || bent.length() <= kParallel * (a + b)) return result;
-    result.upper = shortestArc(bent, way);
+    result.upper = shortestArc(bent, toTarget);
     if (pole.length2() > 0.0) // OSG's product rotates by the left factor first
-        result.upper = result.upper * aboutAxis(unit(way), result.upper * upper, pole);
+        result.upper = result.upper * aboutAxis(unit(toTarget), result.upper * upper, pole);
     return result;
 }
 

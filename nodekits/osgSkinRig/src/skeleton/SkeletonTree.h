@@ -22,6 +22,20 @@ inline int nearAxis(const glm::dvec3& direction) {
     return 0;
 }
 
+/// The unit direction of an axis that nearAxis() returns.
+inline glm::dvec3 alongAxis(int axis) {
+    glm::dvec3 result(0.0);
+    result[std::abs(axis) - 1] = axis > 0 ? 1.0 : -1.0;
+    return result;
+}
+
+/// The positions of all joints.
+inline std::vector<glm::dvec3> centresOf(const RestSkeleton& skeleton) {
+    std::vector<glm::dvec3> result;
+    for (const RestJoint& joint : skeleton.joints) result.push_back(joint.centre);
+    return result;
+}
+
 /// A RestSkeleton with lists of children, for repeated traversals.
 class SkeletonTree {
 public:

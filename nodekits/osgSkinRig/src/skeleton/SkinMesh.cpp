@@ -54,8 +54,8 @@ bool PolygonCutter::fanFits(const std::uint32_t* corners, std::uint32_t size) {
     const glm::dvec3& origin = _positions[corners[0]];
     double extent = 0.0;
     for (std::uint32_t k = 1; k < size; ++k) {
-        const glm::dvec3 way = glm::abs(_positions[corners[k]] - origin);
-        extent = std::max({extent, way.x, way.y, way.z});
+        const glm::dvec3 distance = glm::abs(_positions[corners[k]] - origin);
+        extent = std::max({extent, distance.x, distance.y, distance.z});
     }
     const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
     const auto area = [&](std::uint32_t k) {
@@ -72,7 +72,7 @@ bool PolygonCutter::fanFits(const std::uint32_t* corners, std::uint32_t size) {
 
 void PolygonCutter::project(const std::uint32_t* corners, std::uint32_t size) {
     const glm::dvec3& origin = _positions[corners[0]];
-    const auto way = [&](std::uint32_t k) { return _positions[corners[k]] - origin; };
+    const auto offset = [&](std::uint32_t k) { return _positions[corners[k]] - origin; };
     _flat.clear();
     // A bent polygon is projected along its normal, so that its orientation does not matter.
     const double length = glm::length(_normal);
@@ -80,17 +80,17 @@ void PolygonCutter::project(const std::uint32_t* corners, std::uint32_t size) {
     glm::dvec3 across(0.0);
     double off = 0.0, extent = 0.0;
     for (std::uint32_t k = 1; k < size; ++k) {
-        const double height = glm::dot(way(k), normal);
-        const glm::dvec3 level = way(k) - normal * height;
+        const double height = glm::dot(offset(k), normal);
+        const glm::dvec3 level = offset(k) - normal * height;
         off = std::max(off, std::abs(height));
-        extent = std::max(extent, glm::length(way(k)));
+        extent = std::max(extent, glm::length(offset(k)));
         if (glm::length(level) > glm::length(across)) across = level;
     }
     if (off > kBent * extent && across != glm::dvec3(0.0)) {
         across = glm::normalize(across);
         const glm::dvec3 up = glm::cross(normal, across);
         for (std::uint32_t k = 0; k < size; ++k)
-            _flat.emplace_back(glm::dot(way(k), across), glm::dot(way(k), up));
+            _flat.emplace_back(glm::dot(offset(k), across), glm::dot(offset(k), up));
         return;
     }
     // A flat polygon is projected along the axis nearest to the normal, which rounds nothing, and
@@ -100,7 +100,8 @@ void PolygonCutter::project(const std::uint32_t* corners, std::uint32_t size) {
         if (std::abs(_normal[k]) > std::abs(_normal[axis])) axis = k;
     const int right = (axis + 1) % 3, up = (axis + 2) % 3;
     const double side = _normal[axis] < 0.0 ? -1.0 : 1.0;
-    for (std::uint32_t k = 0; k < size; ++k) _flat.emplace_back(side * way(k)[right], way(k)[up]);
+    for (std::uint32_t k = 0; k < size; ++k)
+        _flat.emplace_back(side * offset(k)[right], offset(k)[up]);
 }
 
 /// Positive where three corners turn left.

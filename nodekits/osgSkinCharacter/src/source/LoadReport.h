@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINCHARACTER_OPTIONS_LOADREPORT_H
-#define OSGSKINCHARACTER_OPTIONS_LOADREPORT_H
+#ifndef OSGSKINCHARACTER_SOURCE_LOADREPORT_H
+#define OSGSKINCHARACTER_SOURCE_LOADREPORT_H
 
 #include <osgSkin/Error>
 #include <osgSkinBind/BindOptions>
@@ -75,8 +75,8 @@ auto withFileContext(const std::string& file, const Step& step) {
     }
 }
 
-/// Adds a note for the caller, and prints it by OSG_NOTICE.
-inline void takeNote(std::vector<std::string>& notes, const std::string& line) {
+/// Adds a warning to the notes for the caller, and prints it by OSG_NOTICE.
+inline void warn(std::vector<std::string>& notes, const std::string& line) {
     notes.push_back(onOneLine(line));
     OSG_NOTICE << notes.back() << std::endl;
 }

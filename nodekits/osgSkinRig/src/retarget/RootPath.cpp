@@ -50,7 +50,7 @@ double floorHeight(std::vector<double> feet, double band) {
 
 } // namespace
 
-RootMotion::RootMotion(const RetargetTarget& body) : _body(body) {
+RootPath::RootPath(const RetargetTarget& body) : _body(body) {
     // The hips, or else the first joint that has a driver.
     const int joints = static_cast<int>(body.rig.rest().joints.size());
     while (_rigHips < joints && body.driver(_rigHips) != 0) ++_rigHips;
@@ -66,8 +66,8 @@ RootMotion::RootMotion(const RetargetTarget& body) : _body(body) {
     _offset = body.rig.centre(_rigHips) - _scale * body.motion.centre(_motionHips);
 }
 
-void RootMotion::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
-                     const std::vector<glm::dquat>& rigWorld) {
+void RootPath::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
+                   const std::vector<glm::dquat>& rigWorld) {
     worldPositions(_body.motion.rest(), motionWorld, motionRoot, _motionPositions);
     const glm::dvec3 hips =
         _scale * _motionPositions[static_cast<std::size_t>(_motionHips)] + _offset;
@@ -81,7 +81,7 @@ void RootMotion::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>
     if (!_body.rigParts.feet.empty()) _feet.push_back(lowestFoot(rigWorld));
 }
 
-double RootMotion::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
+double RootPath::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
     double lowest = std::numeric_limits<double>::infinity();
     for (const int j : _body.rigParts.feet) {
         const auto index = static_cast<std::size_t>(j);
@@ -96,7 +96,7 @@ double RootMotion::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
     return lowest;
 }
 
-void RootMotion::startAtOrigin() {
+void RootPath::startAtOrigin() {
     const glm::dvec3 along(_start.x, 0.0, _start.z);
     if (!(_rigHeight > 1e-6 * _body.rig.reach()) || glm::length(along) < kFar * _rigHeight) return;
     _movedToOrigin = true;
@@ -104,7 +104,7 @@ void RootMotion::startAtOrigin() {
     for (glm::dvec3& root : _roots) root -= along;
 }
 
-std::vector<glm::dvec3> RootMotion::finish() {
+std::vector<glm::dvec3> RootPath::finish() {
     startAtOrigin();
     if (_feet.empty()) return std::move(_roots);
     const double rise = floorHeight(_feet, kContactBand * _rigHeight);
