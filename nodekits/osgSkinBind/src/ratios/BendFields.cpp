@@ -208,8 +208,8 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
         return Widths{widths.above * smoothing * radius, widths.below * smoothing * radius};
     };
     if (joint.rigid >= 0) return times(kRigid);
-    if (joint.trunk) return times(joint.collarBone ? kCollar : kSpine);
-    if (joint.digit) {
+    if (joint.isOfTrunk()) return times(joint.isCollarBone() ? kCollar : kSpine);
+    if (joint.isDigit()) {
         const Widths widths = times(kOther);
         return {std::min(widths.above, kDigit * joint.lengthAbove),
                 std::min(widths.below, kDigit * joint.boneLength)};
@@ -225,7 +225,8 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
 
 /// True for the last joint of a finger or toe with several: all skin beyond it is its own.
 bool isLastDigit(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
-    return joint.digit && joint.child < 0 && joints[static_cast<std::size_t>(joint.parent)].digit;
+    return joint.isDigit() && joint.child < 0 &&
+           joints[static_cast<std::size_t>(joint.parent)].isDigit();
 }
 
 /// The skin of a joint and all below it.
@@ -277,7 +278,7 @@ void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii,
     for (std::size_t v = 0; v < binary.regions.size(); ++v) {
         const std::uint32_t joint = binary.regions[v];
         const PlannedJoint& bone = binary.joints[joint];
-        if (bone.trunk || bone.rigid >= 0 || !(radii[joint] > 0.0)) continue;
+        if (bone.isOfTrunk() || bone.rigid >= 0 || !(radii[joint] > 0.0)) continue;
         const double far = distanceToBone(bone, binary.mesh.positions[v]) / radii[joint];
         if (far <= kFarFromBone) continue;
         if (share.empty()) share.assign(binary.regions.size(), 1.0);
@@ -346,13 +347,13 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     Widths widths = firstWidths(binary.joints, joint, limb, onLimb, radii, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     const std::vector<bool> isHeld = // an arm follows its collar bone fully
-        planned.collarBone ? skinOf(binary, planned.child) : std::vector<bool>();
+        planned.isCollarBone() ? skinOf(binary, planned.child) : std::vector<bool>();
     std::vector<double> share;
-    if (limb && binary.joints[above].trunk)
+    if (limb && binary.joints[above].isOfTrunk())
         share = gradientFactor(binary.mesh,
                                spread(smoother, start, widths, {}, isHeld, options.cutOff));
     const bool leavesTrunk = !share.empty();
-    if (binary.joints[above].trunk) widenFarSkin(binary, radii, share);
+    if (binary.joints[above].isOfTrunk()) widenFarSkin(binary, radii, share);
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);
@@ -371,12 +372,12 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
             isPartial(spread(smoother, start, wider, share, isHeld, options.cutOff));
         evenOut(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
     }
-    const bool isArmOrLeg = !planned.trunk && planned.rigid < 0 && !planned.digit &&
+    const bool isArmOrLeg = !planned.isOfTrunk() && planned.rigid < 0 && !planned.isDigit() &&
                             planned.boneLength > radius &&
                             !carries(binary.joints, joint, JointPart::Head);
     if (isArmOrLeg && middleThird(binary, joint).empty())
         endWithinBones(binary, joint,
-                       above > 0 && !binary.joints[above].trunk && planned.lengthAbove > 0.0,
+                       above > 0 && !binary.joints[above].isOfTrunk() && planned.lengthAbove > 0.0,
                        field);
     return field;
 }
@@ -425,13 +426,13 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
     JointFields fields(joints.size(), binary.mesh.vertexCount());
     fields.set(0, std::vector<double>(binary.mesh.vertexCount(), 1.0));
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion) continue;
+        if (!joints[j].holdsRegion()) continue;
         begin(j);
         std::vector<double> field =
             hasBoundaries(joints[j])
                 ? boundedField(binary, smoother, j, radii[j], options.smoothing)
                 : smoothBend(binary, smoother, j, radii, options);
-        if (joints[j].digit && joints[regionAbove(joints, j)].extremity) {
+        if (joints[j].isDigit() && joints[regionAbove(joints, j)].isExtremity()) {
             // A finger moves no skin that its hand does not move.
             const std::vector<double> hand = fields.values(regionAbove(joints, j));
             for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], hand[v]);
