@@ -19,7 +19,13 @@ function(osgskin_settings target)
       NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
   else()
     target_compile_options(${target} PRIVATE
-      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>)
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>
+      # Kernels ask for -O3: elsewhere it takes time to compile and gains nothing.
+      $<$<CONFIG:Release>:-O2>)
+    if(OSGSKIN_UNITY)
+      # A unit has no main file, whose classes may have bases and members from unnamed namespaces.
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endif()
   endif()
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
@@ -54,8 +60,6 @@ function(osgskin_unity target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # A unit has no main file, whose private classes may have members from unnamed namespaces.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     if(source MATCHES "^src/(.+)/[^/]+[.]cpp$")
