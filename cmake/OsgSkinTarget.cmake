@@ -72,6 +72,13 @@ function(osgskin_unity target)
   endforeach()
 endfunction()
 
+# osgskin_batches(TARGET): with OSGSKIN_UNITY, compiles several small sources as one unit.
+function(osgskin_batches target)
+  if(OSGSKIN_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
+endfunction()
+
 # osgskin_nodekit(NAME): settings of the shared library nodekits/NAME with the headers include/NAME.
 function(osgskin_nodekit name)
   string(TOUPPER ${name} upper)
@@ -124,6 +131,7 @@ function(osgskin_plugin target)
     set_target_properties(${target} PROPERTIES DEBUG_POSTFIX d)
   endif()
   osgskin_settings(${target})
+  osgskin_batches(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
