@@ -204,7 +204,7 @@ osgSkin::UpdatePlayedSkeleton* playedOf(osg::Node& scene) {
 
 } // namespace
 
-/// Saved while the skeleton's bones are not moved.
+/// Saved while the bones' callbacks do not run.
 TEST_P(RoundTrip, PlayedSkeleton) {
     const auto playing = test::makeScene();
     only<osgAnimation::Skeleton>(*playing).node->setUpdateCallback(

@@ -254,8 +254,7 @@ struct PlayedBone {
 struct PlayedPart {
     osg::ref_ptr<RigidPart> part;
     std::size_t bone;
-    osg::Matrixd bones;   ///< from the bone's node to the skeleton, while bones are skipped
-    osg::Matrixd inverse; ///< of that
+    osg::Matrixd toSkeleton; ///< from the bone's node, while bones are skipped
 };
 
 struct PlayedChild {
@@ -281,7 +280,6 @@ struct UpdatePlayedSkeleton::Playing {
         for (const osg::ref_ptr<Channel>& channel : list)
             channel->update(time, clip->getWeight(), 0);
     }
-    void startSkipping();
     void poseBones(osg::Group& parent) const;
     std::ptrdiff_t prefetchKeys();
     void pose();
@@ -348,7 +346,7 @@ void UpdatePlayedSkeleton::Playing::findBones(osg::Group& parent, int parentBone
             auto* part = dynamic_cast<RigidPart*>(child);
             if (part && part->getNumParents() == 1 &&
                 part->getReferenceFrame() == osg::Transform::RELATIVE_RF)
-                parts.push_back({part, bones.size(), {}, {}});
+                parts.push_back({part, bones.size(), {}});
             else
                 isPlain = false;
         }
@@ -438,19 +436,6 @@ void UpdatePlayedSkeleton::Playing::link(osgAnimation::Animation& animation) {
     }
 }
 
-void UpdatePlayedSkeleton::Playing::startSkipping() {
-    for (const osg::ref_ptr<Channel>& channel : driving) channel->reset();
-    for (PlayedPart& part : parts) {
-        part.bones.makeIdentity();
-        for (int b = static_cast<int>(part.bone); b >= 0;) {
-            const PlayedBone& bone = bones[static_cast<std::size_t>(b)];
-            part.bones.postMult(bone.bone->getMatrix());
-            b = bone.parent;
-        }
-        part.inverse.invert(part.bones);
-    }
-}
-
 /// Asks for the keys and elements that pose() needs. Among many characters they have left the
 /// caches, and each would be waited for.
 ///
@@ -490,17 +475,17 @@ void UpdatePlayedSkeleton::Playing::pose() {
     const std::ptrdiff_t step = prefetchKeys();
     for (std::size_t b = 0; b < bones.size(); ++b) {
         const PlayedBone& bone = bones[b];
-        glm::dmat4& m = inSkeleton[b];
-        m = bone.parent < 0 ? glm::dmat4(1.0) : inSkeleton[static_cast<std::size_t>(bone.parent)];
+        glm::dmat4 own(1.0);
         for (std::size_t e = 0; e < bone.elementCount; ++e)
-            apply(elements[bone.firstElement + e], time, step, m);
+            apply(elements[bone.firstElement + e], time, step, own);
+        glm::dmat4& m = inSkeleton[b];
+        m = bone.parent < 0 ? own : inSkeleton[static_cast<std::size_t>(bone.parent)] * own;
         skinning[b] = m * bone.inverseBind;
+        // Costs little: no bound above is marked as old, since nobody asks for the bones' bounds.
+        bone.bone->setMatrix(toOsg(own));
+        bone.bone->setMatrixInSkeletonSpace(toOsg(m));
     }
-    for (const PlayedPart& part : parts) {
-        const osg::Matrixd toBone =
-            part.part->getMatrix() * toOsg(inSkeleton[part.bone]) * part.inverse;
-        part.part->place(&toBone);
-    }
+    for (PlayedPart& part : parts) part.toSkeleton = toOsg(inSkeleton[part.bone]);
 }
 
 UpdatePlayedSkeleton::UpdatePlayedSkeleton() = default;
@@ -564,7 +549,6 @@ void UpdatePlayedSkeleton::Playing::poseBones(osg::Group& parent) const {
 void UpdatePlayedSkeleton::stopSkipping() {
     _skipsBones = false;
     Playing& playing = *_playing;
-    for (const PlayedPart& part : playing.parts) part.part->place(nullptr);
     for (const osg::ref_ptr<Channel>& channel : playing.driving)
         // Those that are set are another animation's now.
         if (!TargetState::isSet(*channel->getTarget())) channel->update(playing.time, 1.0f, 0);
@@ -613,7 +597,8 @@ void UpdatePlayedSkeleton::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         if (isTold) playing.updateChannels(playing.driving);
         return UpdateSkeleton::operator()(node, nv);
     }
-    if (!_skipsBones) playing.startSkipping();
+    if (!_skipsBones)
+        for (const osg::ref_ptr<Channel>& channel : playing.driving) channel->reset();
     _skipsBones = true;
     playing.pose();
     skeleton->dirtyBound();
@@ -638,7 +623,7 @@ void UpdatePlayedSkeleton::CullPlayedSkeleton::operator()(osg::Node* node, osg::
         if (!isBone(*skeleton->getChild(i))) skeleton->getChild(i)->accept(*nv);
     for (const PlayedPart& part : played->_playing->parts) {
         osg::RefMatrix* const matrix = MatrixPool::take(*cv);
-        matrix->preMult(part.bones);
+        matrix->preMult(part.toSkeleton);
         cv->pushModelViewMatrix(matrix, osg::Transform::RELATIVE_RF);
         part.part->accept(*nv);
         cv->popModelViewMatrix();
@@ -666,11 +651,11 @@ UpdatePlayedSkeleton::PlayedSkeletonBound::computeBound(const osg::Node& node) c
     for (const PlayedPart& part : played->_playing->parts) {
         osg::BoundingSphere sphere = part.part->getBound();
         if (!sphere.valid()) continue;
-        osg::BoundingSphere moved(sphere.center() * part.bones, 0.0f);
+        osg::BoundingSphere moved(sphere.center() * part.toSkeleton, 0.0f);
         for (const osg::Vec3& axis : {osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 0), osg::Vec3(0, 0, 1)})
-            moved.radius() =
-                std::max(moved.radius(),
-                         sphere.radius() * osg::Matrixd::transform3x3(axis, part.bones).length());
+            moved.radius() = std::max(
+                moved.radius(),
+                sphere.radius() * osg::Matrixd::transform3x3(axis, part.toSkeleton).length());
         box.expandBy(moved);
     }
     osg::BoundingSphere result;
@@ -681,36 +666,6 @@ UpdatePlayedSkeleton::PlayedSkeletonBound::computeBound(const osg::Node& node) c
         result.radius() =
             std::max(result.radius(), (box.corner(corner) * toParent - result.center()).length());
     return result;
-}
-
-namespace {
-
-class FindPlayed : public osg::NodeVisitor {
-public:
-    FindPlayed() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Transform& node) override {
-        if (UpdatePlayedSkeleton* played = UpdatePlayedSkeleton::of(node)) found.push_back(played);
-        traverse(node);
-    }
-    std::vector<UpdatePlayedSkeleton*> found;
-};
-
-} // namespace
-
-bool setBonesFollow(osg::Node& scene, bool follow) {
-    FindPlayed played;
-    scene.accept(played);
-    for (UpdatePlayedSkeleton* one : played.found) {
-        one->setBonesFollow(follow);
-        if (follow) one->poseBones();
-    }
-    return !played.found.empty();
-}
-
-void poseBones(osg::Node& scene) {
-    FindPlayed played;
-    scene.accept(played);
-    for (UpdatePlayedSkeleton* one : played.found) one->poseBones();
 }
 
 } // namespace osgSkin

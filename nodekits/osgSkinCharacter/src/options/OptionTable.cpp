@@ -235,11 +235,6 @@ std::vector<Option> makeTable() {
                "motions from files keep forearms and hands out of trunk, thighs and head"},
               &LoadOptions::avoidBody),
         unitOption(),
-        choice<std::optional<bool>, bool>(
-            {"bones", "needed",
-             "whether bones follow motions where something needs them, as what hangs on them, or "
-             "always; skins do not need them"},
-            &LoadOptions::bonesFollow, {{"needed", false}, {"always", true}}),
         motionOption(),
         onOff({"gpu", "off",
                "skins are deformed on the graphics card where a context has OpenGL 4.3"},
