@@ -209,13 +209,13 @@ TEST(Correctives, RejectInvalidDataWithAReason) {
         {"range", [](auto& c) { c.joints[0].low.x = 0.0; }},
         {"range", [](auto& c) { c.joints[0].high.y = std::nan(""); }},
         {"knots", [](auto& c) { c.joints[0].knots = {0.5}; }},
-        {"ascend", [](auto& c) { std::swap(c.joints[1].knots[0], c.joints[1].knots[1]); }},
+        {"must ascend", [](auto& c) { std::swap(c.joints[1].knots[0], c.joints[1].knots[1]); }},
         {"modes", [](auto& c) { c.joints[0].modes = 0; }},
         {"input 5 is not there", [](auto& c) { c.joints.back().joint = 5; }},
         {"input 0 is not there", [](auto& c) { c.inputs.clear(); }},
         {"does not hold 0", [](auto& c) { c.joints.back().low.x = 0.5; }},
         {"does not hold 0", [](auto& c) { c.joints.back().high.x = std::nan(""); }},
-        {"none for an input",
+        {"an input must not have knots",
          [](auto& c) {
              c.joints.back().knots = {0.0, 1.0};
          }},
@@ -226,7 +226,7 @@ TEST(Correctives, RejectInvalidDataWithAReason) {
         {"scale of normals", [](auto& c) { c.joints[0].normalScales = {1.0}; }},
         {"offsets", [](auto& c) { c.firstEntry.pop_back(); }},
         {"no joint's modes", [](auto& c) { c.entries[0].joint = 7; }},
-        {"shares that are not there", [](auto& c) { c.entries[0].firstShare = 1u << 30; }},
+        {"share index out of range", [](auto& c) { c.entries[0].firstShare = 1u << 30; }},
         {"less than", [](auto& c) { c.shares[0] = -32768; }},
         {"as many shares",
          [](auto& c) {

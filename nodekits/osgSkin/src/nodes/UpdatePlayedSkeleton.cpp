@@ -43,11 +43,11 @@ struct TargetState : osgAnimation::Target {
     }
 };
 
-/// Keys that are looked at one by one before all are searched.
+/// Keys that are tried linearly before a binary search.
 constexpr std::size_t kNearKeys = 4;
 
-/// Asks for memory that is read soon. The address may be any.
-void fetch([[maybe_unused]] std::uintptr_t address) {
+/// Prefetches; any address is allowed.
+void prefetch([[maybe_unused]] std::uintptr_t address) {
 #ifdef __GNUC__
     __builtin_prefetch(reinterpret_cast<const void*>(address));
 #endif
@@ -63,8 +63,7 @@ osg::Quat between(const osg::Quat& a, const osg::Quat& b, float share) {
     return result;
 }
 
-// OSG's matrices act on rows, in which order the following functions are named; glm's columns are
-// OSG's rows.
+// Named for OSG's row-vector order; glm's columns are OSG's rows.
 
 void preTranslate(glm::dmat4& m, const osg::Vec3& v) {
     m[3] += double(v.x()) * m[0] + double(v.y()) * m[1] + double(v.z()) * m[2];
@@ -123,7 +122,7 @@ struct Element {
 
 /// The value of an element's keys at a time, as osgAnimation's channels compute it.
 ///
-/// \param step how many keys the other elements have gone on since the last time: a guess
+/// \param step expected advance in keys (a hint)
 template <typename Value, typename Keys>
 Value sample(Element& element, double time, std::ptrdiff_t step) {
     const auto& container = static_cast<const Keys&>(*element.keys);
@@ -238,11 +237,11 @@ bool isBone(const osg::Node& node) {
     return dynamic_cast<const Bone*>(&node) != nullptr;
 }
 
-/// A bone, with all that tells whether something has been hung on it since.
+/// A bone and what is needed to detect changes.
 struct PlayedBone {
     Bone* bone;
     int parent;
-    osgAnimation::UpdateBone* update; ///< null where it is none that this file can replace
+    osgAnimation::UpdateBone* update; ///< null if its callback is not a plain UpdateBone
     osg::Callback* callback;
     osg::Callback* nested;
     unsigned int updatedChildren;
@@ -300,7 +299,7 @@ struct UpdatePlayedSkeleton::Playing {
     std::vector<osg::ref_ptr<Channel>> others;
     bool isLinked = false; ///< all channels of bones are known ones
 
-    bool isTold = false; ///< play() was called since the last update
+    bool hasPlayed = false; ///< play() was called since the last update
     double time = 0.0;
 
     std::vector<glm::dmat4> inSkeleton;
@@ -454,18 +453,18 @@ std::ptrdiff_t UpdatePlayedSkeleton::Playing::prefetchKeys() {
     for (const Element& e : elements) {
         const auto at = reinterpret_cast<std::uintptr_t>(
             e.keys ? static_cast<const void*>(e.keys.get()) : e.element);
-        fetch(at);
+        prefetch(at);
         if (e.keys) {
             const std::size_t size = e.kind == Element::kRotate
                                          ? sizeof(osgAnimation::QuatKeyframe)
                                          : sizeof(osgAnimation::Vec3Keyframe);
             const std::uintptr_t key = e.lastKey + static_cast<std::size_t>(step) * size;
-            fetch(key);
-            fetch(key + kLine);
+            prefetch(key);
+            prefetch(key + kLine);
         } else if (e.target) {
-            fetch(reinterpret_cast<std::uintptr_t>(e.target));
+            prefetch(reinterpret_cast<std::uintptr_t>(e.target));
         } else {
-            fetch(at + kLine);
+            prefetch(at + kLine);
         }
     }
     return step;
@@ -515,7 +514,7 @@ bool UpdatePlayedSkeleton::play(osgAnimation::Animation& clip, double time) {
     }
     if (!playing->isLinked) return false;
     playing->time = time;
-    playing->isTold = true;
+    playing->hasPlayed = true;
     playing->updateChannels(playing->others);
     return true;
 }
@@ -579,7 +578,7 @@ void UpdatePlayedSkeleton::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return UpdateSkeleton::operator()(node, nv);
     if (!_playing) _playing = std::make_unique<Playing>();
     Playing& playing = *_playing;
-    const bool isTold = std::exchange(playing.isTold, false);
+    const bool hasPlayed = std::exchange(playing.hasPlayed, false);
     if (!playing.isShared && !playing.isSame(*skeleton)) {
         if (_skipsBones) stopSkipping();
         playing.find(*skeleton);
@@ -590,11 +589,11 @@ void UpdatePlayedSkeleton::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         if (!skeleton->getComputeBoundingSphereCallback())
             skeleton->setComputeBoundingSphereCallback(new PlayedSkeletonBound);
     }
-    const bool skips = isTold && playing.isLinked && playing.isPlain && !playing.isShared &&
+    const bool skips = hasPlayed && playing.isLinked && playing.isPlain && !playing.isShared &&
                        !_bonesFollow && !getNestedCallback();
     if (!skips) {
         if (_skipsBones) stopSkipping();
-        if (isTold) playing.updateChannels(playing.driving);
+        if (hasPlayed) playing.updateChannels(playing.driving);
         return UpdateSkeleton::operator()(node, nv);
     }
     if (!_skipsBones)

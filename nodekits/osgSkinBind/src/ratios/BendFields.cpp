@@ -77,7 +77,7 @@ constexpr double kBetween = 0.02;
 
 /// Upper limit of gradientFactor(): a single needle of the mesh must not spread a field over the
 /// body.
-constexpr double kMost = 3.0;
+constexpr double kMax = 3.0;
 
 /// The width, in limb radii, that makes a field with given boundaries continuous across regions,
 /// and what is cut off again, so that the ratios are exact close beyond the boundaries.
@@ -255,9 +255,9 @@ std::vector<bool> isPartial(const std::vector<double>& field) {
 /// Evens out the stretch by an arm's swings of the skin between the arm and the trunk.
 /// \param third middleThird() of the arm, which keeps its values
 /// \param isFree for each vertex, whether it may change
-void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
-             const std::vector<std::uint32_t>& third, double width, std::vector<bool> isFree,
-             std::vector<double>& field) {
+void equalise(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
+              const std::vector<std::uint32_t>& third, double width, std::vector<bool> isFree,
+              std::vector<double>& field) {
     const std::vector<glm::dvec3> swings = armSwings(binary.joints, joint);
     if (swings.empty()) return;
     for (const std::uint32_t v : third) isFree[v] = false;
@@ -282,7 +282,7 @@ void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii,
         const double far = distanceToBone(bone, binary.mesh.positions[v]) / radii[joint];
         if (far <= kFarFromBone) continue;
         if (share.empty()) share.assign(binary.regions.size(), 1.0);
-        share[v] *= std::min(far, kMost);
+        share[v] *= std::min(far, kMax);
     }
 }
 
@@ -370,7 +370,7 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
         const Widths wider = {kRoom * widths.above, kRoom * widths.below};
         const std::vector<bool> isFree =
             isPartial(spread(smoother, start, wider, share, isHeld, options.cutOff));
-        evenOut(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
+        equalise(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
     }
     const bool isArmOrLeg = !planned.isOfTrunk() && planned.rigid < 0 && !planned.isDigit() &&
                             planned.boneLength > radius &&
@@ -413,7 +413,7 @@ std::vector<double> gradientFactor(const WeldedMesh& mesh, const std::vector<dou
             sum += slope[next];
             count += 1.0;
         }
-        share[v] = std::clamp(sum / (count * between), 1.0, kMost);
+        share[v] = std::clamp(sum / (count * between), 1.0, kMax);
     }
     return share;
 }
