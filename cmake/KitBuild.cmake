@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DKIT=osgSkin -DVERSION=0.3.0 -DHEADERS=FOLDER -DOUT=FOLDER -P KitBuild.cmake
+# cmake -DKIT=osgSkin -DVERSION=0.4.0 -DHEADERS=FOLDER -DOUT=FOLDER -P KitBuild.cmake
 #
 # Writes OUT/osgSkinBuild.cpp, which is compiled into the kit's library, and OUT/osgSkinBuild.h for
 # plug-ins. Both contain the kit's build: its version and a digest of its public headers. Libraries

@@ -2,12 +2,12 @@
 # Install rules for `cmake --install` and packages for `cpack -G DEB`, one for each component; debian/
 # makes the same packages.
 #   component    package                 licence  contents
-#   runtime      libosgskin0.3           MIT      libosgSkin, libosgSkinRig, libosgSkinGpu
+#   runtime      libosgskin0.4           MIT      libosgSkin, libosgSkinRig, libosgSkinGpu
 #   serializers  osgskin-serializers     MIT      .osgt, .osgb, .osgx; with runtime, everything that
 #                                                 a saved character needs
-#   import       libosgskinimport0.3     MIT      libosgSkinImport
+#   import       libosgskinimport0.4     MIT      libosgSkinImport
 #   dev          libosgskin-dev          MIT      headers, CMake and pkg-config files of these kits
-#   bind         libosgskinbind0.3       GPL      libosgSkinBind, libosgSkinCharacter
+#   bind         libosgskinbind0.4       GPL      libosgSkinBind, libosgSkinCharacter
 #   plugin       osgskin-plugin          GPL      the .skin plug-in
 #   binddev      libosgskinbind-dev      GPL      headers, CMake and pkg-config files of these kits
 #   programs     osgskin-tools           GPL      the programs, their man pages, the thrower

@@ -19,7 +19,13 @@ function(osgskin_settings target)
       NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
   else()
     target_compile_options(${target} PRIVATE
-      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>)
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${OSGSKIN_WERROR}>:-Werror>
+      # Kernels ask for -O3: elsewhere it takes time to compile and gains nothing.
+      $<$<CONFIG:Release>:-O2>)
+    if(OSGSKIN_UNITY)
+      # A unit has no main file, whose classes may have bases and members from unnamed namespaces.
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endif()
   endif()
   if(OSGSKIN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGSKIN_SANITIZE} -fno-omit-frame-pointer)
@@ -54,8 +60,6 @@ function(osgskin_unity target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # A unit has no main file, whose private classes may have members from unnamed namespaces.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     if(source MATCHES "^src/(.+)/[^/]+[.]cpp$")
@@ -66,6 +70,13 @@ function(osgskin_unity target)
       endif()
     endif()
   endforeach()
+endfunction()
+
+# osgskin_batches(TARGET): with OSGSKIN_UNITY, compiles several small sources as one unit.
+function(osgskin_batches target)
+  if(OSGSKIN_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
 endfunction()
 
 # osgskin_nodekit(NAME): settings of the shared library nodekits/NAME with the headers include/NAME.
@@ -120,6 +131,7 @@ function(osgskin_plugin target)
     set_target_properties(${target} PROPERTIES DEBUG_POSTFIX d)
   endif()
   osgskin_settings(${target})
+  osgskin_batches(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")

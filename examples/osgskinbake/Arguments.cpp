@@ -24,7 +24,7 @@ const std::regex& numberPattern() {
 }
 
 /// The file name in a path. Folder names may contain a %.
-std::string nameOf(const std::string& path) {
+std::string fileNameOf(const std::string& path) {
     return path.substr(path.rfind('/') + 1); // without a slash, the whole path
 }
 
@@ -35,7 +35,7 @@ struct NumberedName {
     char fill = ' ';
 
     static std::optional<NumberedName> of(const std::string& pattern) {
-        const std::string name = nameOf(pattern);
+        const std::string name = fileNameOf(pattern);
         std::smatch match;
         if (!std::regex_search(name, match, numberPattern())) return std::nullopt;
         NumberedName result;
@@ -48,7 +48,7 @@ struct NumberedName {
 };
 
 void checkPattern(const std::string& out) {
-    const std::string name = nameOf(out);
+    const std::string name = fileNameOf(out);
     const std::string rest = std::regex_replace(name, numberPattern(), "");
     const auto numbers = std::distance(
         std::sregex_iterator(name.begin(), name.end(), numberPattern()), std::sregex_iterator());

@@ -59,9 +59,9 @@ std::FILE* openNew(const std::string& file) {
 
 /// Name of the temporary file, limited to the maximum length of file names.
 std::string besides(const std::string& file) {
-    constexpr std::size_t kMost = 230; // out of 255 bytes
+    constexpr std::size_t kMax = 230; // out of 255 bytes
     const fs::path path(file);
-    const std::string name = path.filename().string().substr(0, kMost);
+    const std::string name = path.filename().string().substr(0, kMax);
     static const unsigned int own = std::random_device()(); // other processes have other names
     return (path.parent_path() / (name + ".part" + std::to_string(own))).string();
 }

@@ -329,7 +329,7 @@ public:
     }
 };
 
-void tellOfMaps(const Character& character) {
+void reportMaps(const Character& character) {
     const std::vector<osgSkin::MeshPart>& parts = character.body.parts;
     if (std::any_of(parts.begin(), parts.end(), [](const osgSkin::MeshPart& part) {
             return part.geometry->getStateSet()->getAttribute(osg::StateAttribute::PROGRAM);
@@ -339,7 +339,7 @@ void tellOfMaps(const Character& character) {
                   << std::flush;
 }
 
-void tellOtherThings(const Character& character) {
+void reportOtherThings(const Character& character) {
     OtherThings others;
     character.root->accept(others);
     if (others.count > 0)
@@ -403,8 +403,8 @@ int run(const Arguments& arguments) {
               << (character.bindReport.boundaries.empty() ? "painted weights"
                                                           : "regions of the skin")
               << std::endl;
-    tellOtherThings(character);
-    tellOfMaps(character);
+    reportOtherThings(character);
+    reportMaps(character);
     return 0;
 }
 

@@ -9,7 +9,6 @@
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/SetMorph>
-#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinBind/ShowRegions>
 
 #include <osg/Array>
@@ -190,8 +189,6 @@ Stage::Stage(const std::string& character, const std::string& weights,
 
     const osg::ref_ptr<osg::Group> figure = new osg::Group;
     figure->addChild(_figure.root);
-    // They are drawn, and other methods of skinning read them.
-    osgSkin::setBonesFollow(*_figure.root, true);
     figure->addChild(_study);
     _state = figure->getOrCreateStateSet();
     const osg::ref_ptr<osg::Group> lit = figures::makeLit();

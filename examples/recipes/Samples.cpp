@@ -214,7 +214,6 @@ void writeFace(const std::string& thrower, const std::string& file) {
 void writeRig(const std::string& walker, const std::string& file) {
     osgSkin::LoadOptions options;
     options.rigid.emplace();
-    options.bonesFollow = true;
     const osgSkin::Character character = osgSkin::loadCharacter(walker, options);
     const osg::ref_ptr<osgAnimation::VertexInfluenceMap> weights =
         new osgAnimation::VertexInfluenceMap;

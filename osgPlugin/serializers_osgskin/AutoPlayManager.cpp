@@ -4,6 +4,7 @@
 #define OBJECT_CAST dynamic_cast
 
 #include "BlockRows.h"
+#include "FileVersion.h"
 #include "RegisterWrapper.h"
 #include "serialize/AnimationBlock.h"
 
@@ -69,20 +70,10 @@ bool readClips(osgDB::InputStream& is, osgSkin::AutoPlayManager& manager) {
 
 } // namespace
 
-namespace osgSkin {
-/// The name in files.
-using AutoPlayClips = AutoPlayManager;
-} // namespace osgSkin
-
-REGISTER_OSGSKIN_WRAPPER(osgSkin_AutoPlayClips, new osgSkin::AutoPlayClips, osgSkin::AutoPlayClips,
-                         "osg::Object osg::Callback osg::NodeCallback osgSkin::AutoPlayClips") {
+REGISTER_OSGSKIN_WRAPPER(osgSkin_AutoPlayManager, new osgSkin::AutoPlayManager,
+                         osgSkin::AutoPlayManager,
+                         "osg::Object osg::Callback osg::NodeCallback osgSkin::AutoPlayManager") {
+    addFileVersion(*wrapper);
     ADD_USER_SERIALIZER(Clips);
     ADD_BOOL_SERIALIZER(AutomaticLink, true);
 }
-
-// As earlier versions have saved it; only read.
-REGISTER_OSGSKIN_WRAPPER(osgSkin_AutoPlayManager, new osgSkin::AutoPlayManager,
-                         osgSkin::AutoPlayManager,
-                         "osg::Object osg::Callback osg::NodeCallback "
-                         "osgAnimation::AnimationManagerBase osgAnimation::BasicAnimationManager "
-                         "osgSkin::AutoPlayManager") {}

@@ -12,7 +12,6 @@ namespace {
 
 // Maximum number of words in a row. Each row starts with its length; an empty row ends the block.
 // There is no total length, because a damaged file could make us allocate any amount of memory.
-// Binary files of earlier versions have short rows, too.
 constexpr unsigned int kTextRow = 16, kRow = 4096;
 
 } // namespace

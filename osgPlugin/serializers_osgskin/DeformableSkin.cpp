@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "BlockRows.h"
+#include "FileVersion.h"
 #include "RegisterWrapper.h"
-#include "SavedPose.h"
 #include "serialize/BlockWords.h"
 #include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/MorphTargets>
 #include <osgSkin/ShareEqualData>
 
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
 
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <typeinfo>
 #include <vector>
@@ -118,6 +122,8 @@ private:
 /// From this file version on, osg::Node writes properties that osg::Drawable wrote before.
 constexpr int kNodesWriteCallbacks = 156;
 
+/// In binary files, a rest geometry lacks what it has in common with the model, and its primitives
+/// are a block of words, which is much faster to read. The block is empty where that cannot be.
 bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     // OSG marks text files with its current version, even if their contents have an older one.
     if (!os.isBinary() && os.getFileVersion() < kNodesWriteCallbacks)
@@ -125,21 +131,33 @@ bool writeSkin(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
                           std::to_string(os.getFileVersion()) +
                           " could not be read again, expected a TargetFileVersion of " +
                           std::to_string(kNodesWriteCallbacks) + " or more, or .osgb");
+    osgSkin::BlockWriter primitives;
+    const bool strips =
+        os.isBinary() &&
+        isVectors(skin.getRestGeometry()->getVertexArray(), skin.getModel()->positions()) &&
+        isVectors(skin.getRestGeometry()->getNormalArray(), skin.getModel()->normals()) &&
+        packPrimitives(*skin.getRestGeometry(), primitives);
     os << os.BEGIN_BRACKET << std::endl;
-    os << skin.getRestGeometry();
+    if (strips) {
+        const Stripped stripped(*skin.getRestGeometry());
+        os << skin.getRestGeometry();
+    } else {
+        primitives.words.clear();
+        os << skin.getRestGeometry();
+    }
     os << skin.getModel();
+    if (os.isBinary()) writeWords(os, primitives.words);
     os << os.END_BRACKET << std::endl;
     return true;
 }
 
-/// \param words see SkinSerializer
-bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin, bool words) {
+bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     is >> is.BEGIN_BRACKET;
     const osg::ref_ptr<osg::Geometry> rest = is.readObjectOfType<osg::Geometry>();
     const osg::ref_ptr<const osgSkin::SkinModel> model =
         osgSkin::unpackedModel(is.readObjectOfType<osgSkin::SkinModel>().get());
     std::vector<std::uint32_t> primitives;
-    if (words && !readWords(is, primitives)) return false;
+    if (is.isBinary() && !readWords(is, primitives)) return false;
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!rest) return fail(is, skin, "no rest geometry");
@@ -148,7 +166,7 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin, bool words)
     const osg::ref_ptr<osg::StateSet> stateSet = skin.getStateSet();
     try {
         // One that another skin shares is complete already.
-        if (words && !rest->getVertexArray()) {
+        if (!primitives.empty() && !rest->getVertexArray()) {
             rest->setVertexArray(makeArray(model->positions()));
             rest->setNormalArray(makeArray(model->normals()));
             rest->setPrimitiveSetList(unpackPrimitives(primitives));
@@ -161,48 +179,6 @@ bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin, bool words)
     skin.setStateSet(stateSet);
     return true;
 }
-
-bool readSkin(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
-    return readSkin(is, skin, false);
-}
-
-/// Binary files have a number where a checked property has a bool. 2: the rest geometry's vertices
-/// and normals are the model's, and its primitives are words, which are much faster to read.
-class SkinSerializer : public osgDB::UserSerializer<osgSkin::DeformableSkin> {
-public:
-    SkinSerializer() : UserSerializer("Skin", &checkSkin, &readSkin, &writeSkin) {}
-
-    bool read(osgDB::InputStream& is, osg::Object& object) override {
-        if (!is.isBinary()) return UserSerializer::read(is, object);
-        char layout = 0;
-        is >> layout;
-        return layout == 0 ||
-               readSkin(is, static_cast<osgSkin::DeformableSkin&>(object), layout == kWords);
-    }
-
-    bool write(osgDB::OutputStream& os, const osg::Object& object) override {
-        const auto& skin = static_cast<const osgSkin::DeformableSkin&>(object);
-        osgSkin::BlockWriter primitives;
-        if (!os.isBinary() || !checkSkin(skin) ||
-            !isVectors(skin.getRestGeometry()->getVertexArray(), skin.getModel()->positions()) ||
-            !isVectors(skin.getRestGeometry()->getNormalArray(), skin.getModel()->normals()) ||
-            !packPrimitives(*skin.getRestGeometry(), primitives))
-            return UserSerializer::write(os, object);
-        os << kWords;
-        os << os.BEGIN_BRACKET << std::endl;
-        {
-            const Stripped stripped(*skin.getRestGeometry());
-            os << skin.getRestGeometry();
-        }
-        os << skin.getModel();
-        writeWords(os, primitives.words);
-        os << os.END_BRACKET << std::endl;
-        return true;
-    }
-
-private:
-    static constexpr char kWords = 2;
-};
 
 bool checkTangents(const osgSkin::DeformableSkin& skin) {
     return skin.getTangentAttribute() >= 0;
@@ -243,6 +219,25 @@ bool writePose(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
     return true;
 }
 
+constexpr double kMaxScale = 1e9;   ///< the smallest is its inverse, like in Pose::set()
+constexpr double kMaxNumber = 1e18; ///< its square still fits a float
+
+/// Describes why a skinning matrix is invalid for a joint, or would move vertices out of the range
+/// of single precision. Empty if the matrix is valid.
+std::string matrixError(const glm::dmat4& skinning) {
+    for (int i = 0; i < 16; ++i) {
+        const double number = glm::value_ptr(skinning)[i];
+        if (!std::isfinite(number)) return "that is not finite";
+        if (std::abs(number) > kMaxNumber) return "with a number that is too large";
+    }
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(skinning))));
+    if (!(scale > 0.0)) return "that is singular";
+    if (scale >= 1.0 / kMaxScale && scale <= kMaxScale) return {};
+    std::ostringstream text;
+    text << "with a scale of " << scale << ", expected " << 1.0 / kMaxScale << " to " << kMaxScale;
+    return text.str();
+}
+
 bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     const std::size_t joints = skin.getPose().size();
     unsigned int size = 0;
@@ -256,7 +251,7 @@ bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
         glm::dmat4 matrix(0.0);
         for (int i = 0; i < 16; ++i) is >> glm::value_ptr(matrix)[i];
         if (is.getException()) return false;
-        const std::string wrong = whatIsWrongWith(matrix);
+        const std::string wrong = matrixError(matrix);
         if (!wrong.empty())
             return fail(is, skin,
                         "a pose whose joint \"" + skin.getModel()->joints()[j].name +
@@ -270,13 +265,62 @@ bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     return true;
 }
 
+bool checkMorphs(const osgSkin::DeformableSkin& skin) {
+    return skin.getMorphTargets() != nullptr;
+}
+
+bool writeMorphs(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
+    os << os.BEGIN_BRACKET << std::endl << skin.getMorphTargets();
+    os << os.END_BRACKET << std::endl;
+    return true;
+}
+
+bool readMorphs(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
+    is >> is.BEGIN_BRACKET;
+    const osg::ref_ptr<const osgSkin::MorphTargets> targets =
+        is.readObjectOfType<osgSkin::MorphTargets>();
+    is >> is.END_BRACKET;
+    if (is.getException()) return false;
+    try {
+        skin.setMorphTargets(targets);
+    } catch (const std::exception& error) {
+        return fail(is, skin, std::string("morph targets that cannot be used: ") + error.what());
+    }
+    return true;
+}
+
+bool checkMorphWeights(const osgSkin::DeformableSkin& skin) {
+    return skin.isMorphed();
+}
+
+// Apart from the targets, because .osgx cannot have numbers behind an object.
+bool writeMorphWeights(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
+    os << os.BEGIN_BRACKET << std::endl;
+    for (const float weight : skin.getMorphWeights()) os << weight;
+    os << std::endl << os.END_BRACKET << std::endl;
+    return true;
+}
+
+bool readMorphWeights(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
+    std::vector<float> weights(skin.getMorphWeights().size());
+    is >> is.BEGIN_BRACKET;
+    for (float& weight : weights) is >> weight;
+    is >> is.END_BRACKET;
+    if (is.getException()) return false;
+    return skin.setMorphWeights(weights) ||
+           fail(is, skin, "a weight of a morph target that is not finite");
+}
+
 } // namespace
 
 REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
                          osgSkin::DeformableSkin,
                          "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
+    addFileVersion(*wrapper);
     ADD_BOOL_SERIALIZER(Eager, false);
-    wrapper->addSerializer(new SkinSerializer, osgDB::BaseSerializer::RW_USER);
+    ADD_USER_SERIALIZER(Skin);
     ADD_USER_SERIALIZER(Tangents);
     ADD_USER_SERIALIZER(Pose);
+    ADD_USER_SERIALIZER(Morphs);
+    ADD_USER_SERIALIZER(MorphWeights);
 }

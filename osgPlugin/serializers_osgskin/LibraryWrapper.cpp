@@ -2,15 +2,13 @@
 // For programs that link the wrappers statically, by USE_SERIALIZER_WRAPPER_LIBRARY(osgSkin).
 #include <osgDB/Registry>
 
-USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayClips)
 USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)
 USE_SERIALIZER_WRAPPER(osgSkin_CullPlayedSkeleton)
 USE_SERIALIZER_WRAPPER(osgSkin_DeformableSkin)
+USE_SERIALIZER_WRAPPER(osgSkin_FileVersion)
 USE_SERIALIZER_WRAPPER(osgSkin_MorphTargets)
-USE_SERIALIZER_WRAPPER(osgSkin_MorphedSkin)
 USE_SERIALIZER_WRAPPER(osgSkin_PlayedSkeletonBound)
 USE_SERIALIZER_WRAPPER(osgSkin_RigidPart)
-USE_SERIALIZER_WRAPPER(osgSkin_SharedSkinModel)
 USE_SERIALIZER_WRAPPER(osgSkin_SkinModel)
 USE_SERIALIZER_WRAPPER(osgSkin_UpdateDeformableSkin)
 USE_SERIALIZER_WRAPPER(osgSkin_UpdateMorphs)

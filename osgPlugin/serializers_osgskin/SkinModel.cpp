@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "BlockRows.h"
+#include "FileVersion.h"
 #include "RegisterWrapper.h"
 #include "serialize/SkinModelBlock.h"
 
@@ -40,15 +41,6 @@ bool readModel(osgDB::InputStream& is, osgSkin::SkinModel& model) {
 
 REGISTER_OSGSKIN_WRAPPER(osgSkin_SkinModel, new osgSkin::SkinModel, osgSkin::SkinModel,
                          "osg::Object osgSkin::SkinModel") {
-    ADD_USER_SERIALIZER(Model);
-}
-
-namespace osgSkin {
-/// Former name of the class in files, before it became an osg::Object; only read, never written.
-using SharedSkinModel = SkinModel;
-} // namespace osgSkin
-
-REGISTER_OSGSKIN_WRAPPER(osgSkin_SharedSkinModel, new osgSkin::SharedSkinModel,
-                         osgSkin::SharedSkinModel, "osg::Object osgSkin::SharedSkinModel") {
+    addFileVersion(*wrapper);
     ADD_USER_SERIALIZER(Model);
 }

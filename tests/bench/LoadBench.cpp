@@ -6,7 +6,6 @@
 #include <osgSkin/DeformPool>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/ParallelDeformCallback>
-#include <osgSkin/UpdatePlayedSkeleton>
 
 #include <benchmark/benchmark.h>
 #include <osg/MatrixTransform>
@@ -122,7 +121,6 @@ void memory(benchmark::State& state) {
 
 /// How the characters are loaded and played.
 struct Mode {
-    bool bonesFollow = false;
     unsigned int threads = 0; ///< of a ParallelDeformCallback; 0: none
     bool sharesModel = false; ///< copies of one character in place of loads
     bool merged = false;      ///< rigid parts merged into the skin
@@ -152,7 +150,6 @@ public:
             managers.push_back(
                 dynamic_cast<osgAnimation::BasicAnimationManager*>(character->getUpdateCallback()));
         }
-        if (mode.bonesFollow) osgSkin::setBonesFollow(*_scene, true);
         if (mode.threads > 0)
             _scene->setUpdateCallback(
                 new osgSkin::ParallelDeformCallback(new osgSkin::DeformPool(mode.threads)));
@@ -233,12 +230,11 @@ void addLoads() {
 void addLoadedFrames() {
     for (const std::size_t count : {20u, 100u, 1000u})
         for (const auto& [name, mode] :
-             {std::pair("bones as needed", Mode{}),
-              {"bones follow", Mode{true}},
-              {"parts merged", Mode{false, 0, false, true}},
-              {"bones as needed, 2 threads", Mode{false, 2}},
-              {"copies, bones as needed", Mode{false, 0, true}},
-              {"copies, bones as needed, 2 threads", Mode{false, 2, true}}})
+             {std::pair("one thread", Mode{}),
+              {"parts merged", Mode{0, false, true}},
+              {"2 threads", Mode{2}},
+              {"copies", Mode{0, true}},
+              {"copies, 2 threads", Mode{2, true}}})
             benchmark::RegisterBenchmark(
                 ("frame of loaded, " + std::string(name) + "/" + std::to_string(count)).c_str(),
                 loadedFrames, mode, count)

@@ -481,11 +481,11 @@ TEST_F(CrowdLimits, UsesDrawCallbacksOfDrawables) {
 }
 
 TEST_F(CrowdLimits, DrawsMoreMembersThanOneDispatchCulls) {
-    constexpr std::size_t kMost = std::size_t{65535} * 64;
+    constexpr std::size_t kMax = std::size_t{65535} * 64;
     const auto character = subject.character();
     CrowdInstance away = subject.members.front();
     away.position += osg::Vec3d(0.0, 0.0, 1e6);
-    std::vector<CrowdInstance> members(kMost + 1, away);
+    std::vector<CrowdInstance> members(kMax + 1, away);
     members.back() = subject.members.front();
     const auto alone = pictureOf(crowdOf(character, {subject.members.front()}));
     EXPECT_GT(test::seenPixels(*alone), 50u);

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Rigid parts drawn with the skin: at load (rigid=merged) and later (mergeRigidParts()).
+// Rigid parts drawn with the skin (rigid=merged).
 #include "FindNodes.h"
 #include "UpdateAt.h"
 
 #include <osgSkin/DeformableSkin>
-#include <osgSkin/MergeRigidParts>
 #include <osgSkin/RigidPart>
 #include <osgSkinCharacter/LoadCharacter>
 
 #include <gtest/gtest.h>
 #include <osg/Geometry>
-#include <osg/StateSet>
 #include <osg/ref_ptr>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
 
 #include <array>
-#include <filesystem>
 #include <map>
 #include <string>
 
@@ -92,7 +87,7 @@ std::size_t partsIn(osg::Node& scene) {
 
 } // namespace
 
-TEST(MergedParts, AreOneDrawableThatMovesAsTheSubgraphs) {
+TEST(MergedParts, MoveAsSeparatePartsDo) {
     const Character separate = loadThrower(false), merged = loadThrower(true);
     EXPECT_GE(partsIn(*separate.root), 1u);
     EXPECT_EQ(partsIn(*merged.root), 0u);
@@ -101,28 +96,7 @@ TEST(MergedParts, AreOneDrawableThatMovesAsTheSubgraphs) {
     expectEqual(*merged.root, *separate.root);
 }
 
-TEST(MergedParts, OfALoadedCharacterMoveAsBefore) {
-    const Character separate = loadThrower(false), merged = loadThrower(false);
-    const std::size_t parts = partsIn(*merged.root);
-    EXPECT_EQ(osgSkin::mergeRigidParts(*merged.root), parts);
-    EXPECT_EQ(partsIn(*merged.root), 0u);
-    EXPECT_EQ(skinsIn(*merged.root), 1u);
-    expectEqual(*merged.root, *separate.root);
-    EXPECT_EQ(osgSkin::mergeRigidParts(*merged.root), 0u);
-}
-
-TEST(MergedParts, OfASavedCharacterMoveAsBefore) {
-    const Character separate = loadThrower(false);
-    std::filesystem::create_directories(OSGSKIN_TEST_OUTPUT);
-    const std::string file = OSGSKIN_TEST_OUTPUT "/thrower.osgb";
-    ASSERT_TRUE(osgDB::writeNodeFile(*separate.root, file));
-    const osg::ref_ptr<osg::Node> saved = osgDB::readRefNodeFile(file);
-    ASSERT_NE(saved, nullptr);
-    EXPECT_EQ(osgSkin::mergeRigidParts(*saved), partsIn(*separate.root));
-    expectEqual(*saved, *separate.root);
-}
-
-TEST(SharedLoads, ShareModelAndArrays) {
+TEST(MergedParts, LoadsOfOneFileShareTheModel) {
     const Character first = loadThrower(false), second = loadThrower(false);
     const DeformableSkin &a = *first.skin.skins.front().drawable,
                          &b = *second.skin.skins.front().drawable;
@@ -131,14 +105,4 @@ TEST(SharedLoads, ShareModelAndArrays) {
     EXPECT_EQ(first.skin.rigids.front().part.geometry->getVertexArray(),
               second.skin.rigids.front().part.geometry->getVertexArray());
     EXPECT_NE(loadThrower(true).skin.skins.front().drawable->getModel(), a.getModel());
-}
-
-TEST(MergedParts, WithAnotherStateStayWhereTheyAre) {
-    const Character character = loadThrower(false);
-    const auto parts = test::findNodes<RigidPart>(*character.root);
-    const osg::ref_ptr<osg::StateSet> own = new osg::StateSet;
-    own->setMode(GL_FOG, osg::StateAttribute::ON);
-    parts.front().node->getChild(0)->setStateSet(own);
-    EXPECT_EQ(osgSkin::mergeRigidParts(*character.root), parts.size() - 1);
-    EXPECT_EQ(partsIn(*character.root), 1u);
 }

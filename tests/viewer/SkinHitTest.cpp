@@ -63,7 +63,7 @@ osg::Vec3d mixed(const SkinHit& hit, const std::vector<glm::vec3>& values) {
 /// Rest positions, moved as the scalar reference and the skinning matrices move them, are where the
 /// lines hit.
 TEST(SkinHit, ReturnsTheRestPositionOfAPosedCharacter) {
-    for (const char* options : {"", "rigid=merged", "gpu=on", "bones=always"}) {
+    for (const char* options : {"", "rigid=merged", "gpu=on"}) {
         const osg::ref_ptr<osgDB::Options> read = new osgDB::Options(options);
         const osg::ref_ptr<osg::Node> thrower =
             osgDB::readRefNodeFile(OSGSKIN_DATA "/thrower.skin", read);

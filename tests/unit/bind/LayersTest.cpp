@@ -55,7 +55,7 @@ SkinMesh lined(const SkinMesh& outside, const SkinMesh& inside) {
     return result;
 }
 
-glm::dquat turn(double degrees, const glm::dvec3& axis) {
+glm::dquat rotation(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(glm::radians(degrees), axis);
 }
 
@@ -86,9 +86,11 @@ struct Dressed {
 
     static std::vector<std::map<std::string, glm::dquat>> poses() {
         const glm::dvec3 x(1, 0, 0), z(0, 0, 1);
-        return {{{"LeftArm", turn(100, z)}, {"RightArm", turn(40, z)}},
-                {{"LeftArm", turn(-80, {0, 1, 0})}, {"Spine", turn(-30, x)}},
-                {{"LeftUpLeg", turn(-90, x)}, {"LeftLeg", turn(100, x)}, {"Spine", turn(30, x)}}};
+        return {{{"LeftArm", rotation(100, z)}, {"RightArm", rotation(40, z)}},
+                {{"LeftArm", rotation(-80, {0, 1, 0})}, {"Spine", rotation(-30, x)}},
+                {{"LeftUpLeg", rotation(-90, x)},
+                 {"LeftLeg", rotation(100, x)},
+                 {"Spine", rotation(30, x)}}};
     }
 
     /// The largest increase of a garment vertex's distance from the skin, and the 99.9th percentile
@@ -142,11 +144,12 @@ TEST(Layers, SleeveBesideTheBodyGoesWithItsArm) {
     KnownBody bare{shapes::hangingArms(), shapes::hangingArmsSkeleton()};
     const SkinMesh sleeve = shapes::garment(bare.mesh, isSleeve, 0.15);
     const Dressed dressed(bare, sleeve);
-    const SkinMesh posed = dressed.body.posed({{"leftArm", turn(70, {0, 0, 1})}}).mesh;
+    const SkinMesh posed = dressed.body.posed({{"leftArm", rotation(70, {0, 0, 1})}}).mesh;
     const std::size_t first = bare.mesh.positions.size();
     const glm::dvec3 shoulder(1.6, 1.4, 0);
     for (std::size_t v = 0; v < sleeve.positions.size(); ++v) {
-        const glm::dvec3 arm = turn(70, {0, 0, 1}) * (sleeve.positions[v] - shoulder) + shoulder;
+        const glm::dvec3 arm =
+            rotation(70, {0, 0, 1}) * (sleeve.positions[v] - shoulder) + shoulder;
         EXPECT_LT(glm::distance(posed.positions[first + v], arm), 0.15) << v;
     }
 }

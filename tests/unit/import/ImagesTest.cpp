@@ -170,7 +170,7 @@ TEST(Images, ReadsOtherFormatsIfAllowed) {
     const std::string content = written("rgb");
     ASSERT_FALSE(content.empty());
     saveText("other.rgb", content);
-    for (const char* words : {"", "formats=obj,rgb", "formats=all", "formats=obj pictures=rgb"})
+    for (const char* words : {"", "formats=obj,rgb", "formats=all", "formats=obj images=rgb"})
         EXPECT_TRUE(drawnWith("other.rgb", words).image.valid()) << words;
     expectRefused("other.rgb", content, "the format \"rgb\" is not allowed", "formats=obj");
     saveText("ours.png", written("png"));

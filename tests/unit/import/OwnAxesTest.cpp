@@ -9,7 +9,6 @@
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/BoneReader>
 #include <osgSkin/GlmOsg>
-#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/MakeAnimation>
@@ -143,7 +142,6 @@ TEST_P(OwnAxes, PlayTheClip) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->setUpdateCallback(manager);
     scene->addChild(own);
-    osgSkin::setBonesFollow(*own, true);
     for (std::size_t frame = 0; frame < clip.frames; ++frame) {
         osgSkin::applyFrame(clip, rig, frame, *plain);
         test::updateAt(*scene, 0.1 * static_cast<double>(frame));

@@ -2,14 +2,11 @@
 //
 // The pose in which a skin was saved: it is visible until the bones move.
 #include "serialize/SkinModelBlock.h"
-#include "OlderBlock.h"
 #include "SavedScene.h"
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
 #include "Turns.h"
-#include "Version1Block.h"
-#include "model/BindingOf.h"
 
 #include <osgSkin/GlmOsg>
 
@@ -66,21 +63,11 @@ TEST(SkinModelBlock, GradientsComeBackExactly) {
         if (corrected) tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 2, true);
         const auto model = tube.model();
         const std::vector<std::uint32_t> words = osgSkin::packSkinModel(*model);
-        EXPECT_EQ(words[0], osgSkin::kSkinModelBlockVersion);
         const auto again = osgSkin::unpackSkinModel(words);
         expectEqual(*again, *model);
         EXPECT_TRUE(again->hasSurfaceNormals());
         EXPECT_EQ(again->hasCorrectives(), corrected);
         EXPECT_EQ(osgSkin::packSkinModel(*again), words);
-        const osgSkin::Binding binding = osgSkin::bindingOf(*again);
-        ASSERT_EQ(binding.gradients.size(), tube.binding.gradients.size());
-        for (std::size_t i = 0; i < binding.gradients.size(); ++i) {
-            if (!tube.binding.influences[i].isPartial()) continue;
-            const osgSkin::RatioGradient &is = binding.gradients[i],
-                                         &was = tube.binding.gradients[i];
-            EXPECT_LE(glm::distance(is.bend, was.bend), 1e-4f) << i;
-            EXPECT_LE(glm::distance(is.twist, was.twist), 1e-4f) << i;
-        }
     }
 }
 
@@ -99,45 +86,6 @@ TEST(SkinModelBlock, GradientsOfAnySteepnessComeBackExactly) {
     }
 }
 
-TEST(SkinModelBlock, BindingComesBackExactly) {
-    const test::Tube tube;
-    const osgSkin::Binding binding = osgSkin::bindingOf(*tube.model());
-    EXPECT_NO_THROW(binding.validate());
-    EXPECT_EQ(binding.firstInfluence, tube.binding.firstInfluence);
-    ASSERT_EQ(binding.influences.size(), tube.binding.influences.size());
-    for (std::size_t i = 0; i < binding.influences.size(); ++i) {
-        EXPECT_EQ(binding.influences[i].joint, tube.binding.influences[i].joint);
-        EXPECT_EQ(binding.influences[i].bend, tube.binding.influences[i].bend);
-        EXPECT_EQ(binding.influences[i].twist, tube.binding.influences[i].twist);
-    }
-}
-
-TEST(SkinModelBlock, BlocksOfOlderVersionsGiveTheSameModel) {
-    for (const std::uint32_t version : {1u, 2u, 3u}) {
-        test::SlopedTube tube(21, 7);
-        if (version < 3) tube.binding.gradients.clear();
-        if (version > 1)
-            tube.binding.correctives = test::someCorrectives(tube.binding, 0.3, 2, true);
-        const auto model = tube.model();
-        const std::vector<std::uint32_t> older = test::packOlderModel(*model);
-        EXPECT_EQ(older.front(), version);
-        const auto read = osgSkin::unpackSkinModel(older);
-        EXPECT_EQ(test::packOlderModel(*read), older) << version;
-        // Bounds and correctives, too. Of gradients, bounds are computed again, from rounded ones.
-        if (version == 3) continue;
-        EXPECT_EQ(osgSkin::packSkinModel(*read), osgSkin::packSkinModel(*model)) << version;
-    }
-}
-
-TEST(SkinModelBlock, VersionOneIsRead) {
-    const std::vector<std::uint32_t> words(std::begin(test::kVersion1Block),
-                                           std::end(test::kVersion1Block));
-    const auto model = osgSkin::unpackSkinModel(words);
-    expectEqual(*model, *test::Tube(2, 3).model());
-    EXPECT_TRUE(osgSkin::bindingOf(*model).correctives.empty());
-    EXPECT_EQ(test::packOlderModel(*model), words);
-}
-
 TEST(SkinModelBlock, CorrectivesComeBackExactly) {
     for (const bool withNormals : {false, true}) {
         test::Tube tube;
@@ -148,7 +96,7 @@ TEST(SkinModelBlock, CorrectivesComeBackExactly) {
         expectEqual(*back, *model);
         EXPECT_EQ(osgSkin::packSkinModel(*back), words);
         const osgSkin::Correctives& before = tube.binding.correctives;
-        const osgSkin::Correctives after = osgSkin::bindingOf(*back).correctives;
+        const osgSkin::Correctives after = back->correctives();
         EXPECT_EQ(after.inputs, before.inputs);
         EXPECT_EQ(after.shares, before.shares);
         EXPECT_EQ(after.normalShares, before.normalShares);

@@ -49,7 +49,7 @@ public:
             return std::size_t(blocks.groups[g].firstLink) + blocks.groups[g].linkCount;
         };
         const std::size_t first = blocks.groups[firstGroup].firstLink;
-        while (endOf(endGroup - 1) > first + LinkTilts::kMost) --endGroup;
+        while (endOf(endGroup - 1) > first + LinkTilts::kMax) --endGroup;
         // `reach` is in the order of the plan's links.
         _tilts.find(blocks.plan.links.data() + first, _blocks->reach.data() + first,
                     endOf(endGroup - 1) - first, *_joints);
@@ -63,7 +63,7 @@ private:
     const GradientBlocks* _blocks; ///< null where the model has none
     const KernelJoints* _joints;
     LinkTilts _tilts;
-    float _bendSlopes[KernelJoints::kMost], _twistSlopes[KernelJoints::kMost];
+    float _bendSlopes[KernelJoints::kMax], _twistSlopes[KernelJoints::kMax];
 };
 
 constexpr std::size_t kPartBlocks = 256;

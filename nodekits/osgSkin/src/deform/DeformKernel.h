@@ -14,15 +14,15 @@ namespace osgSkin {
 
 /// linkTilt() of consecutive links, without translations and scales: a bit for each.
 struct LinkTilts {
-    static constexpr std::size_t kMost = 1024;
+    static constexpr std::size_t kMax = 1024;
 
     /// \param links of joints of the section
     /// \param reach of each of them
-    /// \param count at most kMost
+    /// \param count at most kMax
     void find(const ChainPlan::Link* links, const GradientBlocks::Reach* reach, std::size_t count,
               const KernelJoints& joints) noexcept;
 
-    std::uint16_t bends[kMost / 16 + 1], twists[kMost / 16 + 1]; ///< padded by one
+    std::uint16_t bends[kMax / 16 + 1], twists[kMax / 16 + 1]; ///< padded by one
 
     /// The bits of `count` links, at most SkinModel::kMaxPartialInfluences.
     static std::uint32_t some(const std::uint16_t* bits, std::size_t first, std::size_t count) {

@@ -25,7 +25,7 @@ HWY_INLINE void findSome(const ChainPlan::Link* links, const GradientBlocks::Rea
                          const KernelJoints& joints, std::uint16_t& bends, std::uint16_t& twists) {
     const Tag d;
     const hn::Rebind<std::int32_t, Tag> steps;
-    const auto least = hn::Set(d, static_cast<float>(LinkTilt::kLeast));
+    const auto least = hn::Set(d, static_cast<float>(LinkTilt::kMin));
     std::uint32_t found[2] = {0, 0};
     for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
         static_assert(sizeof *links == sizeof(std::int32_t) && sizeof links->joint == 2);

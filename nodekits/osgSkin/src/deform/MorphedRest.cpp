@@ -23,11 +23,11 @@ void addTimes(float weight, const BlockRow& offset, BlockRow& to) {
 /// Turns what is to be added to normals into what is perpendicular to them, so that the sum keeps
 /// its direction.
 void makeTilts(const BlockRow* normals, BlockRow* d) {
-    constexpr float kLeast = 0.05f; // a normal may turn by nearly 90 degrees
+    constexpr float kMin = 0.05f; // a normal may turn by nearly 90 degrees
     for (std::size_t lane = 0; lane < kBlock; ++lane) {
         const float x = normals[0].lane[lane], y = normals[1].lane[lane], z = normals[2].lane[lane];
         const float along = d[0].lane[lane] * x + d[1].lane[lane] * y + d[2].lane[lane] * z;
-        const float scale = 1.0f / std::max(1.0f + along, kLeast);
+        const float scale = 1.0f / std::max(1.0f + along, kMin);
         d[0].lane[lane] = scale * (d[0].lane[lane] - along * x);
         d[1].lane[lane] = scale * (d[1].lane[lane] - along * y);
         d[2].lane[lane] = scale * (d[2].lane[lane] - along * z);

@@ -28,19 +28,19 @@ struct KernelAngle {
 /// rotation is one in the plane of the first two axes (the twist) followed by one in the plane of
 /// the last two (the bend).
 struct KernelJoints {
-    static constexpr std::size_t kMost = ChainPlan::kMaxJoints;
+    static constexpr std::size_t kMax = ChainPlan::kMaxJoints;
 
     KernelAngle bendOf(std::size_t joint) const { return {bend[joint], bendRange[joint]}; }
     KernelAngle twistOf(std::size_t joint) const { return {twist[joint], twistRange[joint]}; }
 
-    float bend[kMost], twist[kMost]; ///< psi and phi, as KernelAngle has them
-    std::int32_t bendRange[kMost], twistRange[kMost];
-    float wholeBend[kMost], wholeTwist[kMost];      ///< psi and phi
-    float azimuthCosine[kMost], azimuthSine[kMost]; ///< of v, in the joint's fixed frame
-    float move[3][kMost];         ///< translation, in its frame; times the bend ratio
-    float growth[kMost];          ///< scale less 1; times the bend ratio
-    std::int32_t adjusted[kMost]; ///< whether either is not 0 and any group follows it in part
-    bool anyAdjusted;             ///< whether any joint is
+    float bend[kMax], twist[kMax]; ///< psi and phi, as KernelAngle has them
+    std::int32_t bendRange[kMax], twistRange[kMax];
+    float wholeBend[kMax], wholeTwist[kMax];      ///< psi and phi
+    float azimuthCosine[kMax], azimuthSine[kMax]; ///< of v, in the joint's fixed frame
+    float move[3][kMax];         ///< translation, in its frame; times the bend ratio
+    float growth[kMax];          ///< scale less 1; times the bend ratio
+    std::int32_t adjusted[kMax]; ///< whether either is not 0 and any group follows it in part
+    bool anyAdjusted;            ///< whether any joint is
 };
 
 /// x -> scale * turn x + move: columns of the rotation, then the translation and the scale.

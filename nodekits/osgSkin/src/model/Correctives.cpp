@@ -60,7 +60,7 @@ bool areInRange(const std::vector<double>& numbers) {
 
 void checkKnots(const CorrectiveJoint& joint, const std::string& place) {
     if (joint.basis == Basis::Ball) {
-        if (!joint.knots.empty()) throw Error(place + " have knots, expected none for a ball");
+        if (!joint.knots.empty()) throw Error(place + ": a ball joint must not have knots");
         return;
     }
     if (joint.knots.size() < 2 || joint.knots.size() > CorrectiveJoint::kMaxKnots)
@@ -69,7 +69,7 @@ void checkKnots(const CorrectiveJoint& joint, const std::string& place) {
     for (std::size_t i = 0; i < joint.knots.size(); ++i)
         if (!std::isfinite(joint.knots[i]) ||
             (i > 0 && !(joint.knots[i] - joint.knots[i - 1] >= 1e-6)))
-            throw Error(place + " have knots that do not ascend");
+            throw Error(place + ": knots must ascend");
 }
 
 /// Rejects NaN.
@@ -92,7 +92,7 @@ void checkBend(const CorrectiveJoint& joint, const BoundJoint& of, const std::st
 void checkInput(const CorrectiveJoint& joint, const std::string& place) {
     if (!(joint.low.x >= -2.0 && joint.low.x <= 0.0 && joint.high.x > 0.0 && joint.high.x <= 2.0))
         throw Error(place + " have a range that does not hold 0, or is beyond -2 to 2");
-    if (!joint.knots.empty()) throw Error(place + " have knots, expected none for an input");
+    if (!joint.knots.empty()) throw Error(place + ": an input must not have knots");
 }
 
 void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
@@ -270,7 +270,7 @@ void Correctives::validate(const std::vector<BoundJoint>& bound, std::size_t ver
                 throw Error(place + " lists its joints out of order");
             if (entries[i].firstShare > shares.size() ||
                 shares.size() - entries[i].firstShare < sharesOf(entries[i].joint))
-                throw Error(place + " has shares that are not there");
+                throw Error(place + ": share index out of range");
         }
     }
 }

@@ -59,8 +59,8 @@ double unitFor(double largest) {
 }
 
 std::int16_t rounded(double value) {
-    constexpr double kMost = 32767.0;
-    return static_cast<std::int16_t>(std::lrint(std::clamp(value, -kMost, kMost)));
+    constexpr double kMax = 32767.0;
+    return static_cast<std::int16_t>(std::lrint(std::clamp(value, -kMax, kMax)));
 }
 
 /// Components beyond this multiple of their ninth decile are clamped: a ratio that steps within an
@@ -79,9 +79,9 @@ double unitOf(std::vector<double>& sizes) {
 /// The units that components are rounded to, one after the other; usually one. Rounding by the last
 /// changes nothing any more, so that gradients read from a model give the same model again.
 std::vector<double> unitsOf(std::vector<double> sizes) {
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMax = 4;
     std::vector<double> units;
-    while (units.size() < kMost) {
+    while (units.size() < kMax) {
         const double unit = unitOf(sizes);
         if (!units.empty() && unit == units.back()) break;
         units.push_back(unit);

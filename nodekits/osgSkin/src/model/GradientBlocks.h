@@ -92,7 +92,7 @@ std::vector<RatioGradient> gradientsOf(const SkinModel& model);
 
 /// Which gradients of a partial link tilt a group's normals visibly in a pose; others are left out.
 struct LinkTilt {
-    static constexpr double kLeast = 1e-3; ///< radians
+    static constexpr double kMin = 1e-3; ///< radians
 
     bool bends = false;  ///< the bend ratio's
     bool twists = false; ///< the twist ratio's
@@ -106,8 +106,8 @@ struct LinkTilt {
 /// \param moves whether the joint is moved or scaled
 inline LinkTilt linkTilt(const GradientBlocks::Reach& reach, double bendAngle, double twistAngle,
                          bool moves) noexcept {
-    return {std::abs(bendAngle) * static_cast<double>(reach.bend) > LinkTilt::kLeast,
-            std::abs(twistAngle) * static_cast<double>(reach.twist) > LinkTilt::kLeast, moves};
+    return {std::abs(bendAngle) * static_cast<double>(reach.bend) > LinkTilt::kMin,
+            std::abs(twistAngle) * static_cast<double>(reach.twist) > LinkTilt::kMin, moves};
 }
 
 } // namespace osgSkin

@@ -15,7 +15,7 @@ namespace osgSkin {
 namespace {
 
 /// Describes the first error of a target; empty if there is none.
-std::string whatIsWrongWith(const MorphTarget& target, std::size_t vertexCount) {
+std::string findError(const MorphTarget& target, std::size_t vertexCount) {
     const std::size_t count = target.vertices.size();
     const auto fits = [count](const std::vector<glm::vec3>& offsets) {
         return offsets.empty() || offsets.size() == count;
@@ -54,7 +54,7 @@ void MorphTargets::set(std::vector<MorphTarget> targets, std::size_t vertexCount
         const std::string where = "morph target \"" + target.name + "\": expected ";
         if (target.name.empty()) throw Error(where + "a name");
         if (!names.insert(target.name).second) throw Error(where + "a name of its own");
-        const std::string wrong = whatIsWrongWith(target, vertexCount);
+        const std::string wrong = findError(target, vertexCount);
         if (!wrong.empty()) throw Error(where + wrong);
         double reach = 0.0;
         for (const glm::vec3& offset : target.positions)

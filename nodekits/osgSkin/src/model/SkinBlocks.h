@@ -223,17 +223,14 @@ struct SkinModelAccess {
     static void setCorrectives(SkinModel& model, std::shared_ptr<const CorrectiveBlocks> blocks) {
         model._correctives = std::move(blocks);
     }
-    static void setBoundsProxy(SkinModel& model, std::shared_ptr<const BoundsProxy> proxy) {
-        model._boundsProxy = std::move(proxy);
-    }
+    /// Finds the joint boxes of a model that has all else.
+    static void addJointBoxes(SkinModel& model);
 
     /// The vertices as DeformJob's fast path reads them.
     static const SkinBlocks& blocks(const SkinModel& model) { return *model._blocks; }
 
     /// Null for a skin without vertices.
-    static const BoundsProxy* boundsProxy(const SkinModel& model) {
-        return model._boundsProxy.get();
-    }
+    static const JointBoxes* jointBoxes(const SkinModel& model) { return model._jointBoxes.get(); }
 
     /// Null where there are none.
     static const CorrectiveBlocks* correctives(const SkinModel& model) {
@@ -262,9 +259,9 @@ struct SkinModelAccess {
         empty._links = model._links;
         empty._ratios = model._ratios;
         empty._blocks = model._blocks;
-        empty._boundsProxy = model._boundsProxy;
         empty._correctives = model._correctives;
         empty._gradients = model._gradients;
+        empty._jointBoxes = model._jointBoxes;
     }
 };
 

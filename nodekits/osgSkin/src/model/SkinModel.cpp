@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/SkinModel>
 
-#include "model/BoundsProxy.h"
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
+#include "model/JointBoxes.h"
 #include "model/SkinBlocks.h"
 
 #include <osgSkin/Binding>
@@ -288,7 +288,7 @@ SkinModel::SkinModel() : _blocks(std::make_shared<SkinBlocks>(*this)) {}
 SkinModel::SkinModel(const SkinModel& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _joints(other._joints), _positions(other._positions),
       _normals(other._normals), _order(other._order), _groups(other._groups), _links(other._links),
-      _ratios(other._ratios), _blocks(other._blocks), _boundsProxy(other._boundsProxy),
+      _ratios(other._ratios), _blocks(other._blocks), _jointBoxes(other._jointBoxes),
       _correctives(other._correctives), _gradients(other._gradients) {}
 
 SkinModel::~SkinModel() = default;
@@ -307,10 +307,7 @@ osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
                                                 std::vector<glm::vec3> normals,
                                                 const std::vector<std::uint32_t>& source) {
     checkVertices(positions, normals, source.size());
-    const osg::ref_ptr<SkinModel> model =
-        arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
-    model->_boundsProxy = makeBoundsProxy(*model);
-    return model;
+    return arrange(VertexGroups(binding, source), std::move(positions), std::move(normals));
 }
 
 osg::ref_ptr<const SkinModel> SkinModel::create(const Binding& binding,
@@ -332,13 +329,13 @@ SkinModel::Ordered SkinModel::createInBestOrder(const Binding& binding,
     VertexGroups vertices(binding, source);
     const std::vector<std::uint32_t> order = vertices.order();
     vertices.reorder();
-    const osg::ref_ptr<SkinModel> model =
-        arrange(vertices, gather(positions, order), gather(normals, order));
-    model->_boundsProxy = makeBoundsProxy(*model);
-    return {model, order};
+    return {arrange(vertices, gather(positions, order), gather(normals, order)), order};
 }
 
 namespace {
+
+/// The most joints that all vertices together follow: small files could otherwise take very long.
+constexpr std::size_t kMaxFollowed = 1'000'000'000;
 
 [[noreturn]] void refuse(const std::string& what) {
     throw Error("skin model: " + what);
@@ -377,7 +374,7 @@ osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
     checkVertices(from.positions, from.normals, from.positions.size());
     checkOrder(from.order, from.positions.size());
     const std::vector<std::uint32_t> places = productPlaces(productOrder(from.joints));
-    std::size_t vertices = 0, links = 0, ratios = 0;
+    std::size_t vertices = 0, links = 0, ratios = 0, followed = 0;
     for (SkinModel::Group& group : from.groups) {
         if (group.vertexCount == 0 || group.vertexCount > from.positions.size() - vertices ||
             group.linkCount > from.links.size() - links)
@@ -391,6 +388,8 @@ osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
             own, own + group.linkCount, [](const SkinModel::Link& l) { return l.partial; }));
         vertices += group.vertexCount;
         links += group.linkCount;
+        followed += std::size_t{group.vertexCount} * group.linkCount;
+        if (followed > kMaxFollowed) refuse("its vertices follow too many joints");
         ratios += std::size_t{group.vertexCount} * group.partialCount;
         if (ratios > from.ratios.size()) break;
     }
@@ -411,6 +410,10 @@ osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
     model->_ratios = std::move(from.ratios);
     model->_blocks = std::make_shared<SkinBlocks>(*model);
     return model;
+}
+
+void SkinModelAccess::addJointBoxes(SkinModel& model) {
+    if (model.vertexCount() > 0) model._jointBoxes = std::make_shared<JointBoxes>(model);
 }
 
 osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
@@ -442,6 +445,7 @@ osg::ref_ptr<SkinModel> SkinModel::arrange(const VertexGroups& vertices,
     if (!vertices.binding().correctives.empty()) // after the gradients, which these read
         model->_correctives =
             std::make_shared<CorrectiveBlocks>(*model, vertices.binding(), vertices.source());
+    SkinModelAccess::addJointBoxes(*model);
     return model;
 }
 

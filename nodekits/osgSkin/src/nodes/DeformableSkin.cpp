@@ -25,7 +25,7 @@ std::string beyond(std::int64_t vertex, std::size_t vertexCount) {
 }
 
 /// Checks `count` vertices from `first` on.
-std::string whatIsWrongWith(std::int64_t first, std::int64_t count, std::size_t vertexCount) {
+std::string findRangeError(std::int64_t first, std::int64_t count, std::size_t vertexCount) {
     if (count < 0) return "a primitive of " + std::to_string(count) + " corners";
     if (first < 0) return beyond(first, vertexCount);
     const bool fits = first + count <= static_cast<std::int64_t>(vertexCount);
@@ -33,10 +33,10 @@ std::string whatIsWrongWith(std::int64_t first, std::int64_t count, std::size_t 
 }
 
 /// Not by getNumIndices(): OSG adds the counts up in a number that may wrap.
-std::string whatIsWrongWith(const osg::DrawArrayLengths& runs, std::size_t vertexCount) {
+std::string findRangeError(const osg::DrawArrayLengths& runs, std::size_t vertexCount) {
     std::int64_t first = runs.getFirst();
     for (const GLsizei count : runs) {
-        std::string wrong = whatIsWrongWith(first, count, vertexCount);
+        std::string wrong = findRangeError(first, count, vertexCount);
         if (!wrong.empty()) return wrong;
         first += count;
     }
@@ -44,23 +44,23 @@ std::string whatIsWrongWith(const osg::DrawArrayLengths& runs, std::size_t verte
 }
 
 /// OSG does not check that both lists are of the same length.
-std::string whatIsWrongWith(const osg::MultiDrawArrays& runs, std::size_t vertexCount) {
+std::string findRangeError(const osg::MultiDrawArrays& runs, std::size_t vertexCount) {
     if (runs.getFirsts().size() != runs.getCounts().size())
         return std::to_string(runs.getFirsts().size()) + " first vertices of " +
                std::to_string(runs.getCounts().size()) + " runs";
     for (std::size_t i = 0; i < runs.getCounts().size(); ++i) {
-        std::string wrong = whatIsWrongWith(runs.getFirsts()[i], runs.getCounts()[i], vertexCount);
+        std::string wrong = findRangeError(runs.getFirsts()[i], runs.getCounts()[i], vertexCount);
         if (!wrong.empty()) return wrong;
     }
     return {};
 }
 
-std::string whatIsWrongWith(const osg::PrimitiveSet* primitives, std::size_t vertexCount) {
+std::string findRangeError(const osg::PrimitiveSet* primitives, std::size_t vertexCount) {
     if (!primitives) return "a null primitive set";
     if (const auto* runs = dynamic_cast<const osg::DrawArrayLengths*>(primitives))
-        return whatIsWrongWith(*runs, vertexCount);
+        return findRangeError(*runs, vertexCount);
     if (const auto* runs = dynamic_cast<const osg::MultiDrawArrays*>(primitives))
-        return whatIsWrongWith(*runs, vertexCount);
+        return findRangeError(*runs, vertexCount);
     const unsigned int count = primitives->getNumIndices();
     // Stops at the first bad one, so that a wrong count does not take long.
     for (unsigned int i = 0; i < count; ++i)
@@ -121,7 +121,7 @@ osg::ref_ptr<Array> stream(const osg::Array* source, std::size_t count,
 
 std::string brokenPrimitive(const osg::Geometry& geometry, std::size_t vertices) {
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i) {
-        std::string wrong = whatIsWrongWith(geometry.getPrimitiveSet(i), vertices);
+        std::string wrong = findRangeError(geometry.getPrimitiveSet(i), vertices);
         if (!wrong.empty()) return wrong;
     }
     return {};

@@ -43,11 +43,11 @@ struct TargetState : osgAnimation::Target {
     }
 };
 
-/// Keys that are looked at one by one before all are searched.
+/// Keys that are tried linearly before a binary search.
 constexpr std::size_t kNearKeys = 4;
 
-/// Asks for memory that is read soon. The address may be any.
-void fetch([[maybe_unused]] std::uintptr_t address) {
+/// Prefetches; any address is allowed.
+void prefetch([[maybe_unused]] std::uintptr_t address) {
 #ifdef __GNUC__
     __builtin_prefetch(reinterpret_cast<const void*>(address));
 #endif
@@ -63,8 +63,7 @@ osg::Quat between(const osg::Quat& a, const osg::Quat& b, float share) {
     return result;
 }
 
-// OSG's matrices act on rows, in which order the following functions are named; glm's columns are
-// OSG's rows.
+// Named for OSG's row-vector order; glm's columns are OSG's rows.
 
 void preTranslate(glm::dmat4& m, const osg::Vec3& v) {
     m[3] += double(v.x()) * m[0] + double(v.y()) * m[1] + double(v.z()) * m[2];
@@ -123,7 +122,7 @@ struct Element {
 
 /// The value of an element's keys at a time, as osgAnimation's channels compute it.
 ///
-/// \param step how many keys the other elements have gone on since the last time: a guess
+/// \param step expected advance in keys (a hint)
 template <typename Value, typename Keys>
 Value sample(Element& element, double time, std::ptrdiff_t step) {
     const auto& container = static_cast<const Keys&>(*element.keys);
@@ -238,11 +237,11 @@ bool isBone(const osg::Node& node) {
     return dynamic_cast<const Bone*>(&node) != nullptr;
 }
 
-/// A bone, with all that tells whether something has been hung on it since.
+/// A bone and what is needed to detect changes.
 struct PlayedBone {
     Bone* bone;
     int parent;
-    osgAnimation::UpdateBone* update; ///< null where it is none that this file can replace
+    osgAnimation::UpdateBone* update; ///< null if its callback is not a plain UpdateBone
     osg::Callback* callback;
     osg::Callback* nested;
     unsigned int updatedChildren;
@@ -254,8 +253,7 @@ struct PlayedBone {
 struct PlayedPart {
     osg::ref_ptr<RigidPart> part;
     std::size_t bone;
-    osg::Matrixd bones;   ///< from the bone's node to the skeleton, while bones are skipped
-    osg::Matrixd inverse; ///< of that
+    osg::Matrixd toSkeleton; ///< from the bone's node, while bones are skipped
 };
 
 struct PlayedChild {
@@ -281,7 +279,6 @@ struct UpdatePlayedSkeleton::Playing {
         for (const osg::ref_ptr<Channel>& channel : list)
             channel->update(time, clip->getWeight(), 0);
     }
-    void startSkipping();
     void poseBones(osg::Group& parent) const;
     std::ptrdiff_t prefetchKeys();
     void pose();
@@ -302,7 +299,7 @@ struct UpdatePlayedSkeleton::Playing {
     std::vector<osg::ref_ptr<Channel>> others;
     bool isLinked = false; ///< all channels of bones are known ones
 
-    bool isTold = false; ///< play() was called since the last update
+    bool hasPlayed = false; ///< play() was called since the last update
     double time = 0.0;
 
     std::vector<glm::dmat4> inSkeleton;
@@ -348,7 +345,7 @@ void UpdatePlayedSkeleton::Playing::findBones(osg::Group& parent, int parentBone
             auto* part = dynamic_cast<RigidPart*>(child);
             if (part && part->getNumParents() == 1 &&
                 part->getReferenceFrame() == osg::Transform::RELATIVE_RF)
-                parts.push_back({part, bones.size(), {}, {}});
+                parts.push_back({part, bones.size(), {}});
             else
                 isPlain = false;
         }
@@ -438,19 +435,6 @@ void UpdatePlayedSkeleton::Playing::link(osgAnimation::Animation& animation) {
     }
 }
 
-void UpdatePlayedSkeleton::Playing::startSkipping() {
-    for (const osg::ref_ptr<Channel>& channel : driving) channel->reset();
-    for (PlayedPart& part : parts) {
-        part.bones.makeIdentity();
-        for (int b = static_cast<int>(part.bone); b >= 0;) {
-            const PlayedBone& bone = bones[static_cast<std::size_t>(b)];
-            part.bones.postMult(bone.bone->getMatrix());
-            b = bone.parent;
-        }
-        part.inverse.invert(part.bones);
-    }
-}
-
 /// Asks for the keys and elements that pose() needs. Among many characters they have left the
 /// caches, and each would be waited for.
 ///
@@ -469,18 +453,18 @@ std::ptrdiff_t UpdatePlayedSkeleton::Playing::prefetchKeys() {
     for (const Element& e : elements) {
         const auto at = reinterpret_cast<std::uintptr_t>(
             e.keys ? static_cast<const void*>(e.keys.get()) : e.element);
-        fetch(at);
+        prefetch(at);
         if (e.keys) {
             const std::size_t size = e.kind == Element::kRotate
                                          ? sizeof(osgAnimation::QuatKeyframe)
                                          : sizeof(osgAnimation::Vec3Keyframe);
             const std::uintptr_t key = e.lastKey + static_cast<std::size_t>(step) * size;
-            fetch(key);
-            fetch(key + kLine);
+            prefetch(key);
+            prefetch(key + kLine);
         } else if (e.target) {
-            fetch(reinterpret_cast<std::uintptr_t>(e.target));
+            prefetch(reinterpret_cast<std::uintptr_t>(e.target));
         } else {
-            fetch(at + kLine);
+            prefetch(at + kLine);
         }
     }
     return step;
@@ -490,17 +474,17 @@ void UpdatePlayedSkeleton::Playing::pose() {
     const std::ptrdiff_t step = prefetchKeys();
     for (std::size_t b = 0; b < bones.size(); ++b) {
         const PlayedBone& bone = bones[b];
-        glm::dmat4& m = inSkeleton[b];
-        m = bone.parent < 0 ? glm::dmat4(1.0) : inSkeleton[static_cast<std::size_t>(bone.parent)];
+        glm::dmat4 own(1.0);
         for (std::size_t e = 0; e < bone.elementCount; ++e)
-            apply(elements[bone.firstElement + e], time, step, m);
+            apply(elements[bone.firstElement + e], time, step, own);
+        glm::dmat4& m = inSkeleton[b];
+        m = bone.parent < 0 ? own : inSkeleton[static_cast<std::size_t>(bone.parent)] * own;
         skinning[b] = m * bone.inverseBind;
+        // Costs little: no bound above is marked as old, since nobody asks for the bones' bounds.
+        bone.bone->setMatrix(toOsg(own));
+        bone.bone->setMatrixInSkeletonSpace(toOsg(m));
     }
-    for (const PlayedPart& part : parts) {
-        const osg::Matrixd toBone =
-            part.part->getMatrix() * toOsg(inSkeleton[part.bone]) * part.inverse;
-        part.part->place(&toBone);
-    }
+    for (PlayedPart& part : parts) part.toSkeleton = toOsg(inSkeleton[part.bone]);
 }
 
 UpdatePlayedSkeleton::UpdatePlayedSkeleton() = default;
@@ -530,7 +514,7 @@ bool UpdatePlayedSkeleton::play(osgAnimation::Animation& clip, double time) {
     }
     if (!playing->isLinked) return false;
     playing->time = time;
-    playing->isTold = true;
+    playing->hasPlayed = true;
     playing->updateChannels(playing->others);
     return true;
 }
@@ -564,7 +548,6 @@ void UpdatePlayedSkeleton::Playing::poseBones(osg::Group& parent) const {
 void UpdatePlayedSkeleton::stopSkipping() {
     _skipsBones = false;
     Playing& playing = *_playing;
-    for (const PlayedPart& part : playing.parts) part.part->place(nullptr);
     for (const osg::ref_ptr<Channel>& channel : playing.driving)
         // Those that are set are another animation's now.
         if (!TargetState::isSet(*channel->getTarget())) channel->update(playing.time, 1.0f, 0);
@@ -595,7 +578,7 @@ void UpdatePlayedSkeleton::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return UpdateSkeleton::operator()(node, nv);
     if (!_playing) _playing = std::make_unique<Playing>();
     Playing& playing = *_playing;
-    const bool isTold = std::exchange(playing.isTold, false);
+    const bool hasPlayed = std::exchange(playing.hasPlayed, false);
     if (!playing.isShared && !playing.isSame(*skeleton)) {
         if (_skipsBones) stopSkipping();
         playing.find(*skeleton);
@@ -606,14 +589,15 @@ void UpdatePlayedSkeleton::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         if (!skeleton->getComputeBoundingSphereCallback())
             skeleton->setComputeBoundingSphereCallback(new PlayedSkeletonBound);
     }
-    const bool skips = isTold && playing.isLinked && playing.isPlain && !playing.isShared &&
+    const bool skips = hasPlayed && playing.isLinked && playing.isPlain && !playing.isShared &&
                        !_bonesFollow && !getNestedCallback();
     if (!skips) {
         if (_skipsBones) stopSkipping();
-        if (isTold) playing.updateChannels(playing.driving);
+        if (hasPlayed) playing.updateChannels(playing.driving);
         return UpdateSkeleton::operator()(node, nv);
     }
-    if (!_skipsBones) playing.startSkipping();
+    if (!_skipsBones)
+        for (const osg::ref_ptr<Channel>& channel : playing.driving) channel->reset();
     _skipsBones = true;
     playing.pose();
     skeleton->dirtyBound();
@@ -638,7 +622,7 @@ void UpdatePlayedSkeleton::CullPlayedSkeleton::operator()(osg::Node* node, osg::
         if (!isBone(*skeleton->getChild(i))) skeleton->getChild(i)->accept(*nv);
     for (const PlayedPart& part : played->_playing->parts) {
         osg::RefMatrix* const matrix = MatrixPool::take(*cv);
-        matrix->preMult(part.bones);
+        matrix->preMult(part.toSkeleton);
         cv->pushModelViewMatrix(matrix, osg::Transform::RELATIVE_RF);
         part.part->accept(*nv);
         cv->popModelViewMatrix();
@@ -666,11 +650,11 @@ UpdatePlayedSkeleton::PlayedSkeletonBound::computeBound(const osg::Node& node) c
     for (const PlayedPart& part : played->_playing->parts) {
         osg::BoundingSphere sphere = part.part->getBound();
         if (!sphere.valid()) continue;
-        osg::BoundingSphere moved(sphere.center() * part.bones, 0.0f);
+        osg::BoundingSphere moved(sphere.center() * part.toSkeleton, 0.0f);
         for (const osg::Vec3& axis : {osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 0), osg::Vec3(0, 0, 1)})
-            moved.radius() =
-                std::max(moved.radius(),
-                         sphere.radius() * osg::Matrixd::transform3x3(axis, part.bones).length());
+            moved.radius() = std::max(
+                moved.radius(),
+                sphere.radius() * osg::Matrixd::transform3x3(axis, part.toSkeleton).length());
         box.expandBy(moved);
     }
     osg::BoundingSphere result;
@@ -681,36 +665,6 @@ UpdatePlayedSkeleton::PlayedSkeletonBound::computeBound(const osg::Node& node) c
         result.radius() =
             std::max(result.radius(), (box.corner(corner) * toParent - result.center()).length());
     return result;
-}
-
-namespace {
-
-class FindPlayed : public osg::NodeVisitor {
-public:
-    FindPlayed() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Transform& node) override {
-        if (UpdatePlayedSkeleton* played = UpdatePlayedSkeleton::of(node)) found.push_back(played);
-        traverse(node);
-    }
-    std::vector<UpdatePlayedSkeleton*> found;
-};
-
-} // namespace
-
-bool setBonesFollow(osg::Node& scene, bool follow) {
-    FindPlayed played;
-    scene.accept(played);
-    for (UpdatePlayedSkeleton* one : played.found) {
-        one->setBonesFollow(follow);
-        if (follow) one->poseBones();
-    }
-    return !played.found.empty();
-}
-
-void poseBones(osg::Node& scene) {
-    FindPlayed played;
-    scene.accept(played);
-    for (UpdatePlayedSkeleton* one : played.found) one->poseBones();
 }
 
 } // namespace osgSkin

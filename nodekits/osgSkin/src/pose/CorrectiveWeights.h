@@ -24,7 +24,7 @@ public:
     /// \param beta set: as many as the table's stride
     void sum(double* beta) const noexcept;
 
-    static constexpr std::size_t kMost = 22; ///< of CorrectiveJoint::Basis::Round
+    static constexpr std::size_t kMax = 22; ///< of CorrectiveJoint::Basis::Round
     struct Term {
         double factor;
         const double* coefficients; ///< of all modes
@@ -32,7 +32,7 @@ public:
 
     std::size_t count = 0;
     std::size_t modes; ///< a multiple of CorrectiveTable::kAtOnce
-    std::array<Term, kMost> terms;
+    std::array<Term, kMax> terms;
 
 private:
     void add(double factor, const double* coefficients) { terms[count++] = {factor, coefficients}; }

@@ -177,7 +177,6 @@ osg::ref_ptr<osgAnimation::Channel> takeChannel(BlockReader& in) {
 
 std::vector<std::uint32_t> packAnimations(const osgAnimation::AnimationList& animations) {
     BlockWriter out;
-    out.put(kAnimationBlockVersion);
     out.put(animations.size());
     for (const auto& animation : animations) {
         const bool isIn = hasPlace(*animation);
@@ -204,10 +203,6 @@ std::vector<std::uint32_t> packAnimations(const osgAnimation::AnimationList& ani
 
 osgAnimation::AnimationList unpackAnimations(const std::vector<std::uint32_t>& words) {
     BlockReader in(words, "animations' block");
-    const std::uint32_t version = in.word();
-    if (version != kAnimationBlockVersion)
-        in.fail("it has version " + std::to_string(version) + ", expected " +
-                std::to_string(kAnimationBlockVersion));
     osgAnimation::AnimationList animations(in.count("animations", 1));
     for (auto& animation : animations) {
         if (in.word() == 0) continue;
@@ -217,7 +212,7 @@ osgAnimation::AnimationList unpackAnimations(const std::vector<std::uint32_t>& w
         animation->setStartTime(in.longReal());
         animation->setWeight(in.real());
         const std::uint32_t mode = in.word();
-        if (mode > osgAnimation::Animation::PPONG) in.fail("a play mode not known");
+        if (mode > osgAnimation::Animation::PPONG) in.fail("unknown play mode");
         animation->setPlayMode(static_cast<osgAnimation::Animation::PlayMode>(mode));
         const std::uint32_t channels = in.count("channels", 4);
         for (std::uint32_t c = 0; c < channels; ++c)

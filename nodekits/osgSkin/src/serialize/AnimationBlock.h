@@ -12,12 +12,9 @@
 
 namespace osgSkin {
 
-/// The version that packAnimations() writes.
-constexpr std::uint32_t kAnimationBlockVersion = 1;
-
 /// Animations as 32-bit words, without loss.
 ///
-/// Version; number of animations; of each 0 where it is not in the block, else 1 and: name,
+/// Number of animations; of each 0 where it is not in the block, else 1 and: name,
 /// duration, start time (doubles, low word first), weight (float), play mode; number of channels,
 /// and of each: kind (1 rotations, 2 vectors, 3 floats, 4 doubles), name, name of the target,
 /// number of keys, of each key its time (double) and value (x, y, z and w doubles; x, y and z

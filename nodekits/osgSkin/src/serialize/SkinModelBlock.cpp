@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "serialize/SkinModelBlock.h"
 
-#include "model/BoundsProxy.h"
 #include "model/CorrectiveBlocks.h"
 #include "model/GradientBlocks.h"
 #include "model/SkinBlocks.h"
@@ -14,8 +13,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -100,29 +97,6 @@ Correctives takeHead(BlockReader& in, bool& hasNormals) {
     return result;
 }
 
-/// \throw osgSkin::Error where there are too few words; Correctives::validate() checks the numbers
-Correctives takeVertexCorrectives(BlockReader& in, std::uint32_t vertexCount) {
-    bool hasNormals = false;
-    Correctives result = takeHead(in, hasNormals);
-    const auto takeShares = [&](std::uint32_t joint, std::vector<std::int16_t>& shares) {
-        const std::size_t first = shares.size();
-        shares.resize(first + result.sharesOf(joint));
-        in.shorts(shares.data() + first, shares.size() - first);
-    };
-    for (std::uint32_t v = 0; v < vertexCount; ++v) {
-        const std::uint32_t entries = in.count("correctives", 2);
-        for (std::uint32_t i = 0; i < entries; ++i) {
-            const std::uint32_t joint = in.word();
-            if (joint >= result.joints.size()) in.fail("correctives name no joint's modes");
-            result.entries.push_back({joint, static_cast<std::uint32_t>(result.shares.size())});
-            takeShares(joint, result.shares);
-            if (hasNormals) takeShares(joint, result.normalShares);
-        }
-        result.firstEntry.push_back(static_cast<std::uint32_t>(result.entries.size()));
-    }
-    return result;
-}
-
 std::vector<glm::vec3> readVectors(BlockReader& in, std::uint32_t count) {
     std::vector<glm::vec3> vectors(count);
     in.copy(reinterpret_cast<float*>(vectors.data()), std::size_t{3} * count);
@@ -137,52 +111,6 @@ BoundJoint readJoint(BlockReader& in) {
     joint.boneAxis = in.longVector();
     joint.twistAxis = in.longVector();
     return joint;
-}
-
-std::vector<RatioGradient> takeVertexGradients(BlockReader& in,
-                                               const std::vector<Influence>& influences) {
-    std::vector<RatioGradient> gradients(influences.size());
-    for (std::size_t i = 0; i < influences.size(); ++i) {
-        if (!influences[i].isPartial()) continue;
-        for (glm::vec3* vector : {&gradients[i].bend, &gradients[i].twist})
-            for (glm::length_t axis = 0; axis < 3; ++axis) (*vector)[axis] = in.real();
-    }
-    return gradients;
-}
-
-/// Reads versions 1 to 3 after the version: a binding. Everything else is computed from it.
-osg::ref_ptr<const SkinModel> takeOlder(BlockReader& in, std::uint32_t version) {
-    Binding binding;
-    const std::uint32_t joints = in.count("joints", 20);
-    for (std::uint32_t j = 0; j < joints; ++j) binding.joints.push_back(readJoint(in));
-    const std::uint32_t vertices = in.count("vertices", 10);
-    if (vertices == 0) in.fail("it has no vertex");
-    std::vector<glm::vec3> positions = readVectors(in, vertices);
-    std::vector<glm::vec3> normals = readVectors(in, vertices);
-    std::vector<std::uint32_t> source;
-    binding.firstInfluence.push_back(0);
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        const std::uint32_t influences = in.count("influences", 3);
-        for (std::uint32_t i = 0; i < influences; ++i) {
-            Influence influence;
-            influence.joint = in.word();
-            influence.bend = in.real();
-            influence.twist = in.real();
-            binding.influences.push_back(influence);
-        }
-        binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
-        binding.regions.push_back(0);
-        source.push_back(v);
-    }
-    if (version >= 3) {
-        binding.gradients = takeVertexGradients(in, binding.influences);
-        const std::uint32_t corrected = in.word();
-        if (corrected > 1) in.fail("it has neither correctives nor none");
-        if (corrected == 1) binding.correctives = takeVertexCorrectives(in, vertices);
-    }
-    if (version == 2) binding.correctives = takeVertexCorrectives(in, vertices);
-    // create() checks numbers, indices, ratios, axes and the joints' hierarchy.
-    return SkinModel::create(binding, std::move(positions), std::move(normals), source);
 }
 
 /// Writes the gradients.
@@ -269,98 +197,7 @@ void takeCorrectives(BlockReader& in, SkinModel& model) {
         model, std::make_shared<const CorrectiveBlocks>(model, std::move(from)));
 }
 
-/// The numbers of a term, as files have them.
-template <typename Term>
-auto numbersOf(Term& term) {
-    return std::array{&term.bend,     &term.twist,     &term.bendSpread, &term.twistSpread,
-                      &term.mostBend, &term.mostTwist, &term.bendReach,  &term.twistReach,
-                      &term.bendMove, &term.twistMove, &term.mostHigh};
-}
-
-void put(const BoundsProxy& proxy, BlockWriter& out) {
-    const auto putLanes = [&](const BoundsProxy::Lanes& lanes) {
-        out.copy(lanes.lane, BoundsProxy::kAtOnce);
-    };
-    out.put(proxy.noTravel);
-    out.put(proxy.rounding);
-    out.put(proxy.terms.size());
-    for (const BoundsProxy::Term& term : proxy.terms) {
-        out.put(term.joint);
-        out.put(std::uint32_t{term.turns ? 1u : 0u});
-        for (const float* number : numbersOf(term)) out.put(*number);
-    }
-    out.put(proxy.pieces.size());
-    for (const BoundsProxy::Piece& piece : proxy.pieces) {
-        out.put(piece.anchor);
-        out.put(piece.termCount);
-        out.putVector(piece.centre.xyz());
-        for (const Four& axis : piece.axes) out.putVector(axis.xyz());
-    }
-    out.put(proxy.shares.size());
-    for (const BoundsProxy::Share& share : proxy.shares) {
-        out.put(share.joint);
-        for (const auto* lanes : {&share.weight, &share.bend, &share.twist, &share.square})
-            putLanes(*lanes);
-    }
-    out.put(proxy.reaches.size());
-    for (const BoundsProxy::Reach& reach : proxy.reaches) {
-        out.put(reach.weight);
-        putLanes(reach.length);
-    }
-    out.put(proxy.blocks.size());
-    for (const BoundsProxy::Block& block : proxy.blocks)
-        for (const std::uint32_t count :
-             {block.pieceCount, block.weighted, block.shareCount, block.reachCount})
-            out.put(count);
-}
-
-void takeBoundsProxy(BlockReader& in, SkinModel& model) {
-    const auto proxy = std::make_shared<BoundsProxy>();
-    const auto takeLanes = [&](BoundsProxy::Lanes& lanes) {
-        in.copy(lanes.lane, BoundsProxy::kAtOnce);
-    };
-    const auto takeVector = [&](Four& vector) {
-        float axes[3];
-        in.copy(axes, 3);
-        vector = four(axes[0], axes[1], axes[2], 0.0f);
-    };
-    proxy->noTravel = in.real();
-    proxy->rounding = in.real();
-    proxy->terms.resize(in.count("terms of bounds", 13));
-    for (BoundsProxy::Term& term : proxy->terms) {
-        term.joint = in.word();
-        term.turns = in.word() != 0;
-        for (float* number : numbersOf(term)) *number = in.real();
-    }
-    proxy->pieces.resize(in.count("pieces of bounds", 14));
-    for (BoundsProxy::Piece& piece : proxy->pieces) {
-        piece.anchor = in.word();
-        piece.termCount = in.word();
-        takeVector(piece.centre);
-        for (Four& axis : piece.axes) takeVector(axis);
-    }
-    proxy->shares.resize(in.count("shares of bounds", 33));
-    for (BoundsProxy::Share& share : proxy->shares) {
-        share.joint = in.word();
-        for (auto* lanes : {&share.weight, &share.bend, &share.twist, &share.square})
-            takeLanes(*lanes);
-    }
-    proxy->reaches.resize(in.count("reaches of bounds", 9));
-    for (BoundsProxy::Reach& reach : proxy->reaches) {
-        reach.weight = in.word();
-        takeLanes(reach.length);
-    }
-    proxy->blocks.resize(in.count("blocks of bounds", 4));
-    for (BoundsProxy::Block& block : proxy->blocks)
-        for (std::uint32_t* count :
-             {&block.pieceCount, &block.weighted, &block.shareCount, &block.reachCount})
-            *count = in.word();
-    completeBoundsProxy(model, *proxy);
-    SkinModelAccess::setBoundsProxy(model, proxy);
-}
-
-/// Reads version 4 behind the version: a model as it is in memory.
-osg::ref_ptr<const SkinModel> takeArranged(BlockReader& in) {
+osg::ref_ptr<const SkinModel> takeModel(BlockReader& in) {
     SkinModelAccess::Arranged from;
     Binding head; // to be checked, without vertices
     const std::uint32_t joints = in.count("joints", 20);
@@ -387,10 +224,10 @@ osg::ref_ptr<const SkinModel> takeArranged(BlockReader& in) {
     in.copy(&from.ratios.data()->bend, 2 * from.ratios.size());
     const osg::ref_ptr<SkinModel> model = SkinModelAccess::make(std::move(from));
     const std::uint32_t parts = in.word();
-    if (parts & ~(kGradients | kCorrectives)) in.fail("it has a part that is not known");
+    if (parts & ~(kGradients | kCorrectives)) in.fail("it has an unknown section");
     if (parts & kGradients) takeGradients(in, *model);
     if (parts & kCorrectives) takeCorrectives(in, *model);
-    takeBoundsProxy(in, *model);
+    SkinModelAccess::addJointBoxes(*model);
     return model;
 }
 
@@ -412,7 +249,6 @@ osg::ref_ptr<const SkinModel> share(const ContentHash& block,
 
 std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     BlockWriter out;
-    out.put(kSkinModelBlockVersion);
     out.put(model.joints().size());
     for (const BoundJoint& joint : model.joints()) {
         out.put(static_cast<std::uint32_t>(joint.parent));
@@ -441,7 +277,6 @@ std::vector<std::uint32_t> packSkinModel(const SkinModel& model) {
     out.put((gradients ? kGradients : 0u) | (correctives ? kCorrectives : 0u));
     if (gradients) put(*gradients, out);
     if (correctives) put(*correctives, out);
-    if (const BoundsProxy* const proxy = SkinModelAccess::boundsProxy(model)) put(*proxy, out);
     return out.words;
 }
 
@@ -450,12 +285,7 @@ osg::ref_ptr<const SkinModel> unpackSkinModel(const std::vector<std::uint32_t>& 
     if (osg::ref_ptr<const SkinModel> known = SharedObjects<SkinModel>::instance().find(block))
         return known;
     BlockReader in(words, "skin model block");
-    const std::uint32_t version = in.word();
-    if (version < 1 || version > kSkinModelBlockVersion)
-        in.fail("it has version " + std::to_string(version) + ", expected 1 to " +
-                std::to_string(kSkinModelBlockVersion));
-    const osg::ref_ptr<const SkinModel> model =
-        version < 4 ? takeOlder(in, version) : takeArranged(in);
+    const osg::ref_ptr<const SkinModel> model = takeModel(in);
     if (!in.atEnd()) in.fail("there is more in it than a model");
     return share(block, model);
 }

@@ -11,13 +11,9 @@
 
 namespace osgSkin {
 
-/// The version that packSkinModel() writes. Versions 1 to 3 held a binding, from which everything
-/// else was computed at each load.
-constexpr std::uint32_t kSkinModelBlockVersion = 4;
-
 /// A model as 32-bit words, without loss: the same in each file format.
 ///
-/// Version; number of joints, and of each: parent, bytes of the name, the name (four bytes a word,
+/// Number of joints, and of each: parent, bytes of the name, the name (four bytes a word,
 /// the first lowest), centre, bone axis, twist axis (doubles, low word first); number of vertices,
 /// all positions, all normals (floats), order(); number of groups, and of each: number of vertices,
 /// number of links, of each link its joint, with the highest bit where it is partial; number of
@@ -31,8 +27,6 @@ constexpr std::uint32_t kSkinModelBlockVersion = 4;
 /// of knots, the knots; modes; number of coefficients, the coefficients; number of normals' scales,
 /// those (all doubles); of each group the number of ranges, and of each: joint, first block, number
 /// of blocks; `rows`, then `normalRows`.
-///
-/// Bounds: as BoundsProxy, without what follows from the rest.
 OSGSKIN_EXPORT std::vector<std::uint32_t> packSkinModel(const SkinModel& model);
 
 /// The model in `words`, which need not be trusted. As long as a model lives, the same words are

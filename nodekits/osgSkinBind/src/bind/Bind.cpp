@@ -78,7 +78,7 @@ void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>
     }
     for (const std::uint32_t joint : regions.jointOf) ++all[joint].vertices;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion && all[j].vertices == 0) continue;
+        if (!joints[j].holdsRegion() && all[j].vertices == 0) continue;
         all[j].joint = skeleton.joints[j].name;
         report.regions.push_back(all[j]);
         if (all[j].vertices > 0) continue;
@@ -103,7 +103,7 @@ std::vector<BindReport::Boundaries> boundariesOf(const std::vector<PlannedJoint>
                                                  const std::vector<double>& radii, bool printed) {
     std::vector<BindReport::Boundaries> result(joints.size());
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion) continue;
+        if (!joints[j].holdsRegion()) continue;
         result[j].bendUpper = joints[j].options.bendUpper;
         result[j].bendLower = joints[j].options.bendLower;
         if (printed) {
@@ -141,9 +141,9 @@ Binding bind(const SkinMesh& mesh, const RestSkeleton& skeleton, const BindOptio
     requireSurface(skin);
     std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, found.notes);
     if (options.method == BindOptions::Method::Smooth) findExtremities(skin, joints);
-    for (const PlannedJoint& joint : joints) {
-        found.jointsInside += joint.inside ? 1 : 0;
-        found.jointsOutside += joint.outside ? 1 : 0;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        found.jointsInside += joints[j].isInside() ? 1 : 0;
+        found.jointsOutside += joints[j].isOutside(static_cast<int>(j)) ? 1 : 0;
     }
     Regions regions = findRegions(
         skin, joints, subProgress(ratiosProgress, kRegionsBegin, kBendsBegin)); // section 1

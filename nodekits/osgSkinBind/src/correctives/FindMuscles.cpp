@@ -41,11 +41,73 @@ const struct LimbMuscle {
     {"Calf", "LowerLeg", "Foot", Options::Side::Extensor, 0.0, 0.8, 0.3, 0.05, 0.05},
 };
 
+/// A direction in a body's axes; `outwards` is away from its middle on either side.
+struct InBody {
+    double outwards, up, front;
+};
+
+/// From a joint along a line and the body's up axis, in the line's lengths, and outwards, in
+/// distances of a joint from the body's middle.
+struct BodyPlace {
+    double along, up, outwards;
+};
+
+/// A muscle of the trunk, moved by a joint that bends in all directions. Lengths are relative to
+/// the line from joint `base` to joint `end`, but for those in distances of joint `moved` from the
+/// body's middle.
+const struct TrunkMuscle {
+    const char* name;
+    struct {
+        const char *moved, *base, *end;
+    } roles; ///< without their side
+    struct {
+        InBody towards;       ///< contracts as the moved joint's bone turns there
+        double whole, widest; ///< the bend at which it has its growth, and the range; degrees
+    } bend;
+    struct {
+        BodyPlace origin, insertion; ///< from `base`
+    } line;
+    struct {
+        InBody side;
+        double peak;
+        double widthAtOrigin, widthAtInsertion; ///< half widths of a flat muscle
+        double widthOfMiddle; ///< a part of both, in distances from the body's middle
+    } belly;
+    struct {
+        double reach, growth, tension;
+    } skin;
+} kTrunkMuscles[] = {
+    {"Deltoid",
+     {"UpperArm", "UpperArm", "LowerArm"},
+     {{0.0, 1.0, 0.0}, 90.0, 150.0},
+     {{-0.3, 0.0, 0.0}, {0.55, 0.0, 0.0}},
+     {{1.0, 0.6, 0.0}, 0.5, 0.0, 0.0, 0.0},
+     {0.6, 0.03, 0.035}},
+    {"Pectoral",
+     {"UpperArm", "UpperArm", "LowerArm"},
+     {{-0.6, 0.0, 0.8}, 90.0, 150.0},
+     {{0.0, -0.36, -1.0}, {0.0, -0.08, 0.0}},
+     {{0.0, 0.0, 1.0}, 0.5, 0.42, 0.25, 0.0},
+     {1.2, 0.035, 0.045}},
+    {"Trapezius",
+     {"Collar", "Neck", "UpperArm"},
+     {{0.0, 1.0, 0.0}, 30.0, 60.0},
+     {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}},
+     {{0.0, 1.0, -0.4}, 0.4, 0.5, 0.5, 0.0},
+     {0.8, 0.05, 0.05}},
+    {"Gluteus",
+     {"UpperLeg", "UpperLeg", "LowerLeg"},
+     {{0.0, 0.0, -1.0}, 30.0, 60.0},
+     {{0.0, 0.27, -0.1}, {0.0, -0.22, 0.1}},
+     {{0.0, 0.0, -1.0}, 0.5, 0.0, 0.0, 1.0},
+     {0.7, 0.015, 0.026}},
+};
+
 /// A flexor reaches its growth where its hinge is bent by this angle from straight, in degrees.
 constexpr double kFlexion = 120.0;
 
 /// The least angle between that bend and the rest pose, in degrees.
-constexpr double kLeastFlexion = 45.0;
+constexpr double kMinFlexion = 45.0;
 
 /// Other muscles reach their growth at this angle from the rest pose, in degrees.
 constexpr double kBend = 45.0;
@@ -63,11 +125,11 @@ glm::dvec3 perpendicularPart(const glm::dvec3& v, const glm::dvec3& unit) {
     return v - unit * glm::dot(v, unit);
 }
 
-/// The axis, perpendicular to the twist axis, of a bend that turns `along` towards `way`.
-std::optional<glm::dvec3> axisTowards(const glm::dvec3& way, const glm::dvec3& along,
+/// The axis, perpendicular to the twist axis, of a bend that turns `along` towards `towards`.
+std::optional<glm::dvec3> axisTowards(const glm::dvec3& towards, const glm::dvec3& along,
                                       const glm::dvec3& twistAxis) {
-    const glm::dvec3 axis = perpendicularPart(glm::cross(along, way), twistAxis);
-    if (!(glm::length(axis) > 1e-3 * glm::length(way))) return std::nullopt;
+    const glm::dvec3 axis = perpendicularPart(glm::cross(along, towards), twistAxis);
+    if (!(glm::length(axis) > 1e-3 * glm::length(towards))) return std::nullopt;
     return glm::normalize(axis);
 }
 
@@ -106,7 +168,7 @@ std::string makeOfLimb(const RestSkeleton& skeleton, const std::vector<PlannedJo
     if (!options.towards && !extends) {
         const double flexed = std::atan2(glm::dot(glm::cross(range.above, range.bone), *axis),
                                          glm::dot(range.above, range.bone));
-        whole = std::max(glm::radians(kFlexion) - flexed, glm::radians(kLeastFlexion));
+        whole = std::max(glm::radians(kFlexion) - flexed, glm::radians(kMinFlexion));
     }
     muscle.contraction = [whole](const glm::dvec2& xy) {
         return contractionAt(2.0 * std::asin(std::clamp(xy.x, -1.0, 1.0)) / whole);
@@ -114,27 +176,6 @@ std::string makeOfLimb(const RestSkeleton& skeleton, const std::vector<PlannedJo
     muscle.growth = options.growth;
     muscle.tension = options.tension;
     return {};
-}
-
-/// Moves a muscle by a joint that bends in all directions: it contracts as the joint's bone turns
-/// towards `way`, unit, and has its growth at `whole` degrees from the rest pose.
-/// \param most the largest bend, degrees
-void moveByTurning(const PlannedJoint& joint, const BoundJoint& bound, std::size_t index,
-                   const glm::dvec3& way, const glm::dvec3& across, double whole, double most,
-                   Muscle& muscle) {
-    ShapedJoint range;
-    range.twistAxis = bound.twistAxis;
-    setBendRange(std::nullopt, across, range, most);
-    range.functions.joint = static_cast<std::uint32_t>(index);
-    muscle.functions = range.functions;
-    const auto rise = [way](const glm::dvec3& bone) {
-        return std::asin(std::clamp(glm::dot(bone, way), -1.0, 1.0));
-    };
-    muscle.contraction = [range, rise, bone = joint.boneAxis,
-                          whole = glm::radians(whole)](const glm::dvec2& xy) {
-        const glm::dquat turn = partialRotation(range.bendAt(xy), range.twistAxis, 1.0, 1.0);
-        return contractionAt((rise(turn * bone) - rise(bone)) / whole);
-    };
 }
 
 /// One side of a body, with the joints that its muscles lie at and their places.
@@ -160,125 +201,80 @@ public:
         if (!above || !hinge) return noJoint(above ? known.hinge : known.bone);
         Options options{_side + known.name, {},       known.side,   {},
                         known.from,         known.to, known.growth, known.tension};
-        if (std::string(known.hinge) == "Hand") {
-            if (!_body) return "the body has no known front";
-            const double way = known.side == Options::Side::Flexor ? 1.0 : -1.0;
-            options.towards = way * palm(*above, *hinge);
-            std::string reason =
-                makeOfLimb(_skeleton, _joints, _bound, options, *above, *hinge, known.peak, muscle);
-            if (reason.empty()) muscle.side = way * forearmSide(*above, *hinge);
-            return withJoint(*hinge, reason);
-        }
-        return withJoint(*hinge, makeOfLimb(_skeleton, _joints, _bound, options, *above, *hinge,
-                                            known.peak, muscle));
-    }
-
-    std::string makeDeltoid(Muscle& muscle) const {
-        const auto arm = joint("UpperArm"), elbow = joint("LowerArm");
-        if (!arm || !elbow) return noJoint(arm ? "LowerArm" : "UpperArm");
-        if (!_body) return "the body has no known front";
-        const glm::dvec3 bone = centre(*elbow) - centre(*arm);
-        const double length = glm::length(bone);
-        muscle.name = _side + "Deltoid";
-        moveByTurning(_joints[*arm], _bound[*arm], *arm, _body->up, _body->front, 90.0, 150.0,
-                      muscle);
-        setLine(centre(*arm) - 0.3 * bone, centre(*arm) + 0.55 * bone, _outwards + 0.6 * _body->up,
-                muscle);
-        muscle.peak = 0.5;
-        muscle.reach = 0.6 * length;
-        muscle.growth = 0.03 * length;
-        muscle.tension = 0.035 * length;
+        const bool ofForearm = std::string(known.hinge) == "Hand";
+        const double sign = known.side == Options::Side::Flexor ? 1.0 : -1.0;
+        if (ofForearm && !_body) return noFront();
+        if (ofForearm) options.towards = sign * palm(*above, *hinge);
+        const std::string reason =
+            makeOfLimb(_skeleton, _joints, _bound, options, *above, *hinge, known.peak, muscle);
+        if (!reason.empty()) return "joint \"" + _skeleton.joints[*hinge].name + "\" " + reason;
+        if (ofForearm) muscle.side = sign * forearmSide(*above, *hinge);
         return {};
     }
 
-    std::string makePectoral(Muscle& muscle) const {
-        const auto arm = joint("UpperArm"), elbow = joint("LowerArm");
-        if (!arm || !elbow) return noJoint(arm ? "LowerArm" : "UpperArm");
-        if (!_body) return "the body has no known front";
-        const glm::dvec3 bone = centre(*elbow) - centre(*arm);
-        const double length = glm::length(bone);
-        muscle.name = _side + "Pectoral";
-        moveByTurning(_joints[*arm], _bound[*arm], *arm,
-                      glm::normalize(0.8 * _body->front - 0.6 * _outwards), _body->front, 90.0,
-                      150.0, muscle);
-        const glm::dvec3 middle = centre(*arm) - _outwards * fromMiddle(*arm);
-        setLine(middle - 0.36 * length * _body->up, centre(*arm) - 0.08 * length * _body->up,
-                _body->front, muscle);
-        muscle.peak = 0.5;
-        muscle.widthAtOrigin = 0.42 * length;
-        muscle.widthAtInsertion = 0.25 * length;
-        muscle.reach = 1.2 * length;
-        muscle.growth = 0.035 * length;
-        muscle.tension = 0.045 * length;
-        return {};
-    }
-
-    std::string makeTrapezius(Muscle& muscle) const {
-        const auto collar = joint("Collar"), arm = joint("UpperArm"), neck = jointOf("Neck");
-        if (!collar || !arm || !neck)
-            return noJoint(!neck ? "Neck" : collar ? "UpperArm" : "Collar", !neck);
-        if (!_body) return "the body has no known front";
-        const double width = glm::distance(centre(*neck), centre(*arm));
-        muscle.name = _side + "Trapezius";
-        moveByTurning(_joints[*collar], _bound[*collar], *collar, _body->up, _body->front, 30.0,
-                      60.0, muscle);
-        setLine(centre(*neck), centre(*arm), _body->up - 0.4 * _body->front, muscle);
-        muscle.peak = 0.4;
-        muscle.widthAtOrigin = muscle.widthAtInsertion = 0.5 * width;
-        muscle.reach = 0.8 * width;
-        muscle.growth = 0.05 * width;
-        muscle.tension = 0.05 * width;
-        return {};
-    }
-
-    std::string makeGluteus(Muscle& muscle) const {
-        const auto leg = joint("UpperLeg"), knee = joint("LowerLeg");
-        if (!leg || !knee) return noJoint(leg ? "LowerLeg" : "UpperLeg");
-        if (!_body) return "the body has no known front";
-        const double length = glm::distance(centre(*leg), centre(*knee));
-        const double aside = fromMiddle(*leg);
-        muscle.name = _side + "Gluteus";
-        moveByTurning(_joints[*leg], _bound[*leg], *leg, -_body->front, _body->front, 30.0, 60.0,
-                      muscle);
-        setLine(centre(*leg) + 0.27 * length * _body->up - 0.1 * aside * _outwards,
-                centre(*leg) - 0.22 * length * _body->up + 0.1 * aside * _outwards, -_body->front,
-                muscle);
-        muscle.peak = 0.5;
-        muscle.widthAtOrigin = muscle.widthAtInsertion = 1.0 * aside;
-        muscle.reach = 0.7 * length;
-        muscle.growth = 0.015 * length;
-        muscle.tension = 0.026 * length;
+    std::string make(const TrunkMuscle& known, Muscle& muscle) const {
+        for (const char* role : {known.roles.base, known.roles.moved, known.roles.end})
+            if (!joint(role)) return noJoint(role);
+        if (!_body) return noFront();
+        const std::size_t moved = *joint(known.roles.moved);
+        const glm::dvec3 base = centre(*joint(known.roles.base));
+        const glm::dvec3 line = centre(*joint(known.roles.end)) - base;
+        const double length = glm::length(line);
+        const double aside = glm::dot(centre(moved) - _joints.front().centre, _outwards);
+        const auto place = [&](const BodyPlace& at) {
+            return base + at.along * line + at.up * length * _body->up +
+                   at.outwards * aside * _outwards;
+        };
+        muscle.name = _side + known.name;
+        moveByTurning(known, moved, muscle);
+        muscle.origin = place(known.line.origin);
+        muscle.insertion = place(known.line.insertion);
+        muscle.side = glm::normalize(perpendicularPart(
+            direction(known.belly.side), glm::normalize(muscle.insertion - muscle.origin)));
+        muscle.peak = known.belly.peak;
+        const double width = known.belly.widthOfMiddle * aside;
+        muscle.widthAtOrigin = known.belly.widthAtOrigin * length + width;
+        muscle.widthAtInsertion = known.belly.widthAtInsertion * length + width;
+        muscle.reach = known.skin.reach * length;
+        muscle.growth = known.skin.growth * length;
+        muscle.tension = known.skin.tension * length;
         return {};
     }
 
 private:
-    std::optional<std::size_t> jointOf(const std::string& role) const {
-        const auto found = _roles.joints.find(role);
+    std::string sided(const std::string& role) const {
+        return role == "Neck" ? role : _side + role;
+    }
+    std::optional<std::size_t> joint(const std::string& role) const {
+        const auto found = _roles.joints.find(sided(role));
         if (found == _roles.joints.end() || found->second.empty()) return std::nullopt;
         return static_cast<std::size_t>(found->second.front());
     }
-    std::optional<std::size_t> joint(const std::string& role) const {
-        return jointOf(_side + role);
-    }
     const glm::dvec3& centre(std::size_t joint) const { return _joints[joint].centre; }
 
-    std::string noJoint(const std::string& role, bool inMiddle = false) const {
-        return "no joint has the role " + (inMiddle ? std::string() : _side) + role;
+    std::string noJoint(const std::string& role) const {
+        return "no joint has the role " + sided(role);
     }
-    std::string withJoint(std::size_t joint, const std::string& reason) const {
-        return reason.empty() ? reason : "joint \"" + _skeleton.joints[joint].name + "\" " + reason;
-    }
-
-    /// How far a joint is from the body's middle, along `_outwards`.
-    double fromMiddle(std::size_t joint) const {
-        return glm::dot(centre(joint) - _joints.front().centre, _outwards);
+    static std::string noFront() { return "the body has no known front"; }
+    glm::dvec3 direction(const InBody& in) const {
+        return in.outwards * _outwards + in.up * _body->up + in.front * _body->front;
     }
 
-    static void setLine(const glm::dvec3& origin, const glm::dvec3& insertion,
-                        const glm::dvec3& side, Muscle& muscle) {
-        muscle.origin = origin;
-        muscle.insertion = insertion;
-        muscle.side = glm::normalize(perpendicularPart(side, glm::normalize(insertion - origin)));
+    void moveByTurning(const TrunkMuscle& known, std::size_t moved, Muscle& muscle) const {
+        ShapedJoint range;
+        range.twistAxis = _bound[moved].twistAxis;
+        setBendRange(std::nullopt, _body->front, range, known.bend.widest);
+        range.functions.joint = static_cast<std::uint32_t>(moved);
+        muscle.functions = range.functions;
+        const auto rise =
+            [towards = glm::normalize(direction(known.bend.towards))](const glm::dvec3& bone) {
+                return std::asin(std::clamp(glm::dot(bone, towards), -1.0, 1.0));
+            };
+        muscle.contraction = [range, rise, bone = _joints[moved].boneAxis,
+                              whole = glm::radians(known.bend.whole)](const glm::dvec2& xy) {
+            const glm::dquat turn = partialRotation(range.bendAt(xy), range.twistAxis, 1.0, 1.0);
+            return contractionAt((rise(turn * bone) - rise(bone)) / whole);
+        };
     }
 
     /// The thumb's direction from the hand, or the front without one; perpendicular to the forearm.
@@ -303,10 +299,8 @@ private:
     glm::dvec3 forearmSide(std::size_t elbow, std::size_t hand) const {
         const glm::dvec3 along = glm::normalize(centre(hand) - centre(elbow));
         glm::dvec3 side = palm(elbow, hand);
-        if (const auto axis = findMainAxis(_skeleton, _joints, elbow)) {
-            const glm::dvec3 inner = perpendicularPart(_isLeft ? *axis : -*axis, along);
-            side += inner;
-        }
+        if (const auto axis = findMainAxis(_skeleton, _joints, elbow))
+            side += perpendicularPart(_isLeft ? *axis : -*axis, along);
         return glm::normalize(perpendicularPart(side, along));
     }
 
@@ -344,24 +338,20 @@ std::vector<Muscle> findMuscles(const RestSkeleton& skeleton,
     const JointRoles roles = recogniseJoints(skeleton, options.names);
     for (const char* side : {"Left", "Right"}) {
         const BodySide body(skeleton, joints, bound, roles, side);
-        const auto add = [&](const char* name, const auto& make) {
-            const std::string full = std::string(side) + name;
+        const auto add = [&](const auto& known) {
+            const std::string name = std::string(side) + known.name;
             if (std::any_of(options.ownMuscles.begin(), options.ownMuscles.end(),
-                            [&](const Options& own) { return own.name == full; }))
+                            [&](const Options& own) { return own.name == name; }))
                 return; // the author's own replaces it
             Muscle muscle;
-            const std::string reason = make(muscle);
+            const std::string reason = body.make(known, muscle);
             if (reason.empty())
                 muscles.push_back(muscle);
             else
-                notes.push_back("muscle " + full + " is left out: " + reason);
+                notes.push_back("muscle " + name + " is left out: " + reason);
         };
-        for (const LimbMuscle& known : kLimbMuscles)
-            add(known.name, [&](Muscle& muscle) { return body.make(known, muscle); });
-        add("Deltoid", [&](Muscle& muscle) { return body.makeDeltoid(muscle); });
-        add("Pectoral", [&](Muscle& muscle) { return body.makePectoral(muscle); });
-        add("Trapezius", [&](Muscle& muscle) { return body.makeTrapezius(muscle); });
-        add("Gluteus", [&](Muscle& muscle) { return body.makeGluteus(muscle); });
+        for (const LimbMuscle& known : kLimbMuscles) add(known);
+        for (const TrunkMuscle& known : kTrunkMuscles) add(known);
     }
     return muscles;
 }

@@ -66,7 +66,7 @@ double radiusAt(const PlannedJoint& planned, const WeldedMesh& mesh,
 std::vector<bool> withinExtremities(const std::vector<PlannedJoint>& joints) {
     std::vector<bool> within(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j)
-        within[j] = joints[j].extremity ||
+        within[j] = joints[j].isExtremity() ||
                     (joints[j].parent >= 0 && within[static_cast<std::size_t>(joints[j].parent)]);
     return within;
 }
@@ -266,7 +266,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& planned = joints[j];
-        if (trunk[j] || extremities[j] || planned.rigid >= 0 || !planned.holdsRegion) continue;
+        if (trunk[j] || extremities[j] || planned.rigid >= 0 || !planned.holdsRegion()) continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
         const bool atTrunk = trunk[above];
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);

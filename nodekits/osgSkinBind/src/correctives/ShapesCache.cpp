@@ -127,7 +127,8 @@ std::string inputDigest(const RestSkeleton& skeleton, const std::vector<PlannedJ
         for (const double length : {joint.boneLength, joint.lengthAbove}) writer.add(length);
         for (const int number : {static_cast<int>(joint.part), joint.parent, joint.rigid})
             writer.add(number);
-        for (const bool flag : {joint.extremity, joint.trunk, joint.holdsRegion}) writer.add(flag);
+        for (const bool flag : {joint.isExtremity(), joint.isOfTrunk(), joint.holdsRegion()})
+            writer.add(flag);
     }
     writer.addAll(mesh.positions);
     writer.addAll(mesh.weldedOf);

@@ -41,7 +41,7 @@ public:
     explicit RegionTree(const std::vector<PlannedJoint>& joints) {
         for (std::size_t j = 0; j < joints.size(); ++j) {
             const auto above = static_cast<std::uint32_t>(j == 0 ? 0 : regionAbove(joints, j));
-            const bool ofTrunk = j == 0 || joints[j].trunk;
+            const bool ofTrunk = j == 0 || joints[j].isOfTrunk();
             _above.push_back(above);
             _depths.push_back(ofTrunk ? 0 : _depths[above] + 1);
         }

@@ -28,13 +28,15 @@ bool isUpperArm(const std::vector<PlannedJoint>& joints, const PlannedJoint& joi
 
 bool isCollarBone(const std::vector<PlannedJoint>& joints, std::size_t index) {
     const PlannedJoint& joint = joints[index];
-    if (joint.trunk || joint.parent < 0 || joint.child < 0 || joint.rigid >= 0) return false;
+    if (joint.kind != JointKind::Limb || joint.parent < 0 || joint.child < 0 || joint.rigid >= 0)
+        return false;
     const PlannedJoint& next = joints[static_cast<std::size_t>(joint.child)];
     const PlannedJoint& above = joints[static_cast<std::size_t>(joint.parent)];
-    if (!above.trunk || next.rigid >= 0 || !carries(joints, index, JointPart::Hand)) return false;
+    if (!above.isOfTrunk() || next.rigid >= 0 || !carries(joints, index, JointPart::Hand))
+        return false;
     if (joint.part == JointPart::Collar) return true;
     // An upper arm behind its collar bone is not one, even if its forearm is long.
-    if (above.collarBone && isUpperArm(joints, joint)) return false;
+    if (above.isCollarBone() && isUpperArm(joints, joint)) return false;
     const double most = isUpperArm(joints, next) ? kCollarLengthBeforeArm : kCollarLength;
     return joint.boneLength < most * next.boneLength;
 }
@@ -51,13 +53,14 @@ double distanceToArm(const std::vector<PlannedJoint>& joints, const PlannedJoint
 
 void markTrunk(std::vector<PlannedJoint>& joints) {
     std::vector<int> ends(joints.size(), 0); // at or below each joint
-    for (std::size_t j = 0; j < joints.size(); ++j) ends[j] = joints[j].extremity ? 1 : 0;
+    for (std::size_t j = 0; j < joints.size(); ++j) ends[j] = joints[j].isExtremity() ? 1 : 0;
     for (std::size_t j = joints.size(); j-- > 1;)
         ends[static_cast<std::size_t>(joints[j].parent)] += ends[j];
-    for (std::size_t j = 0; j < joints.size(); ++j) joints[j].trunk = ends[j] > 1;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (ends[j] > 1) joints[j].kind = JointKind::Spine;
     for (std::size_t j = 0; j < joints.size(); ++j)
         if (isCollarBone(joints, j)) {
-            joints[j].trunk = joints[j].collarBone = true;
+            joints[j].kind = JointKind::CollarBone;
             joints[j].armDistance = distanceToArm(joints, joints[j]);
         }
 }
@@ -68,7 +71,7 @@ std::vector<bool> trunkByShape(const std::vector<PlannedJoint>& joints, double s
     std::vector<bool> trunk(joints.size());
     for (std::size_t j = joints.size(); j-- > 0;) {
         below[j] = std::max(below[j], joints[j].boneLength);
-        trunk[j] = trunk[j] || joints[j].trunk || longChains[j] > 1;
+        trunk[j] = trunk[j] || joints[j].isOfTrunk() || longChains[j] > 1;
         if (joints[j].parent < 0) continue;
         const auto parent = static_cast<std::size_t>(joints[j].parent);
         if (trunk[j]) trunk[parent] = true;

@@ -74,7 +74,7 @@ public:
         const std::size_t count = joints.size();
         std::vector<bool> isBody(count, false); // not a control, or above such a joint
         for (std::size_t j = count; j-- > 0;) {
-            if (joints[j].helper) continue;
+            if (joints[j].region == RegionSource::Helper) continue;
             if (isLast(joints, j) && !isControl(joints, j)) isBody[j] = true;
             if (isBody[j] && joints[j].parent >= 0) isBody[indexOf(joints[j].parent)] = true;
         }
@@ -139,7 +139,8 @@ private:
         const PlannedJoint& joint = joints[j];
         std::vector<glm::dvec3> bones;
         if (_skeleton.children(static_cast<int>(j)).size() > kMaxBones)
-            return joint.inside ? std::vector<glm::dvec3>{joint.centre} : std::vector<glm::dvec3>{};
+            return joint.isInside() ? std::vector<glm::dvec3>{joint.centre}
+                                    : std::vector<glm::dvec3>{};
         const bool isEnd = isLast(joints, j);
         for (const int child : _skeleton.children(static_cast<int>(j)))
             if (isEnd || isBody[indexOf(child)])
@@ -150,7 +151,7 @@ private:
         for (const glm::dvec3& point : bones)
             if (isInside(point)) inside.push_back(point);
         if (isEnd) append(beyondLast(joint), inside);
-        if (!joint.inside &&
+        if (!joint.isInside() &&
             static_cast<double>(inside.size()) < kInside * static_cast<double>(bones.size()))
             inside.clear();
         return inside;
@@ -186,13 +187,14 @@ private:
 /// The joint that gets a joint's samples: itself, the one at the same point, or the nearest above;
 /// -1 if none of them has a region.
 int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint, double tolerance) {
-    if (joints[joint].holdsRegion) return static_cast<int>(joint);
+    if (joints[joint].holdsRegion()) return static_cast<int>(joint);
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j].holdsRegion &&
+        if (joints[j].holdsRegion() &&
             glm::distance(joints[j].centre, joints[joint].centre) <= tolerance)
             return static_cast<int>(j);
     int owner = joints[joint].parent;
-    while (owner >= 0 && !joints[indexOf(owner)].holdsRegion) owner = joints[indexOf(owner)].parent;
+    while (owner >= 0 && !joints[indexOf(owner)].holdsRegion())
+        owner = joints[indexOf(owner)].parent;
     return owner;
 }
 
@@ -203,10 +205,9 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
                 std::vector<std::string>& notes) {
     for (std::size_t j = 0; j < joints.size(); ++j) {
         PlannedJoint& joint = joints[j];
-        joint.inside = joint.holdsRegion && isInsideSkin(mesh, joint.centre);
-        joint.outside =
-            joint.holdsRegion && !joint.inside && !joint.belowRigid(static_cast<int>(j));
-        if (method == BindOptions::Method::Paper && joint.holdsRegion && joint.inside)
+        if (!joint.holdsRegion()) continue;
+        joint.inside = isInsideSkin(mesh, joint.centre);
+        if (method == BindOptions::Method::Paper && joint.isInside())
             joint.samples = {joint.centre};
     }
     if (method != BindOptions::Method::Paper) {
@@ -230,13 +231,15 @@ void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const Join
         if (joint.parent >= 0)
             isBelowBody[j] = isBelowBody[indexOf(joint.parent)] ||
                              !joints[indexOf(joint.parent)].samples.empty();
-        if (!joint.holdsRegion || !joint.samples.empty()) continue;
-        joint.claims = isBelowBody[j] && joint.child >= 0 && !joint.inside &&
-                       !joint.belowRigid(static_cast<int>(j));
-        joint.holdsRegion = joint.claims;
-        if (joint.outside)
-            notes.push_back("joint \"" + skeleton.joints[j].name + "\" lies outside the skin" +
-                            (joint.claims ? ", its region is the nearest skin" : ""));
+        if (!joint.holdsRegion() || !joint.samples.empty()) continue;
+        joint.region = RegionSource::None;
+        if (!joint.isOutside(static_cast<int>(j))) continue;
+        std::string note = "joint \"" + skeleton.joints[j].name + "\" lies outside the skin";
+        if (isBelowBody[j] && joint.child >= 0) {
+            joint.region = RegionSource::Nearest;
+            note += ", its region is the nearest skin";
+        }
+        notes.push_back(std::move(note));
     }
 }
 

@@ -147,7 +147,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 std::size_t coincident(const std::vector<PlannedJoint>& joints, std::size_t joint,
                        double tolerance) {
     for (std::size_t other = 0; other < joint; ++other)
-        if (joints[other].holdsRegion &&
+        if (joints[other].holdsRegion() &&
             glm::distance(joints[other].centre, joints[joint].centre) <= tolerance)
             return other;
     return kNone;
@@ -178,21 +178,25 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
     std::vector<std::size_t> rivals;
     std::string note;                              // about the first ones
     std::vector<bool> helps(joints.size(), false); // of lower standing than another joint
+    const auto give = [&joints](std::size_t joint, bool gets) {
+        joints[joint].region = gets ? RegionSource::Bones : RegionSource::None;
+    };
     for (std::size_t j = 0; j < joints.size(); ++j) {
         if (joints[j].options.skip) continue;
         const std::size_t other = coincident(joints, j, tolerance);
-        joints[j].holdsRegion = other == kNone;
+        give(j, other == kNone);
         if (other == kNone) continue;
         if (skeleton.isInSubtree(static_cast<int>(j), static_cast<int>(other))) {
             // A foot below its IK target.
-            joints[j].holdsRegion = roles.roles[other].empty() && !roles.roles[j].empty();
-            joints[other].holdsRegion = !joints[j].holdsRegion;
+            const bool isBelowTarget = roles.roles[other].empty() && !roles.roles[j].empty();
+            give(j, isBelowTarget);
+            give(other, !isBelowTarget);
             continue;
         }
         const int more = standing(skeleton, roles, j) - standing(skeleton, roles, other);
         if (more == 0) {
             if (tellsBonesApart && haveOwnBones(joints[other], joints[j], tolerance)) {
-                joints[j].holdsRegion = true;
+                give(j, true);
                 continue;
             }
             if (rivals.empty())
@@ -203,30 +207,30 @@ void giveRegions(const RestSkeleton& skeleton, const JointRoles& roles, double t
             continue;
         }
         helps[more > 0 ? other : j] = true;
-        joints[other].holdsRegion = more < 0;
-        joints[j].holdsRegion = more > 0;
+        give(other, more < 0);
+        give(j, more > 0);
     }
-    for (const std::size_t rival : rivals) joints[rival].holdsRegion = false;
+    for (const std::size_t rival : rivals) give(rival, false);
     if (rivals.size() > 1)
         note += "; the same applies to " + std::to_string(rivals.size() - 1) + " more";
     if (!rivals.empty()) notes.push_back(note);
     // Joints below a helper are helpers, too, such as further links of a twist.
     for (std::size_t j = 1; j < joints.size(); ++j) {
         if (!helps[at(skeleton.joints[j].parent)]) continue;
-        if (!roles.roles[j].empty()) continue;
-        helps[j] = true;
-        joints[j].holdsRegion = false;
+        if (roles.roles[j].empty()) helps[j] = true;
     }
-    for (std::size_t j = 0; j < joints.size(); ++j) joints[j].helper = helps[j];
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (helps[j]) joints[j].region = RegionSource::Helper;
 }
 
 /// A rigid joint owns the seeds of its descendants, so it has a region even without seeds.
 void giveRegionsToRigidJoints(std::vector<PlannedJoint>& joints) {
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j].rigid >= 0 && joints[j].holdsRegion)
-            joints[at(joints[j].rigid)].holdsRegion = true;
+        if (joints[j].rigid >= 0 && joints[j].holdsRegion() &&
+            !joints[at(joints[j].rigid)].holdsRegion())
+            joints[at(joints[j].rigid)].region = RegionSource::Bones;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j].belowRigid(static_cast<int>(j))) joints[j].holdsRegion = false;
+        if (joints[j].belowRigid(static_cast<int>(j))) joints[j].region = RegionSource::None;
 }
 
 } // namespace
@@ -279,7 +283,7 @@ std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t
 
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint) {
     int above = joints[joint].parent;
-    while (above > 0 && !joints[at(above)].holdsRegion) above = joints[at(above)].parent;
+    while (above > 0 && !joints[at(above)].holdsRegion()) above = joints[at(above)].parent;
     return static_cast<std::size_t>(std::max(above, 0));
 }
 
@@ -300,10 +304,12 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
         joints[j].poleIsParent =
             skeleton.joints[j].parent >= 0 && hasParentPole(joints[j].options, joints[j].part);
     }
-    for (const std::size_t joint : extremities(skeleton, roles)) joints[joint].extremity = true;
+    for (const std::size_t joint : extremities(skeleton, roles))
+        joints[joint].kind = JointKind::Extremity;
     for (std::size_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& above = joints[at(skeleton.joints[j].parent)];
-        joints[j].digit = joints[j].rigid < 0 && (above.extremity || above.digit);
+        if (joints[j].rigid < 0 && (above.isExtremity() || above.isDigit()))
+            joints[j].kind = JointKind::Digit;
     }
     setJointAxes(skeleton, tolerance, joints);
     markTrunk(joints);
@@ -316,10 +322,10 @@ std::vector<PlannedJoint> planJoints(const RestSkeleton& skeleton, const WeldedM
     // which uses only centres, cannot distinguish such a root from one at the end of the skin.
     const bool isSmooth = options.method == BindOptions::Method::Smooth;
     const auto first = std::find_if(joints.begin(), joints.end(),
-                                    [](const PlannedJoint& joint) { return joint.holdsRegion; });
+                                    [](const PlannedJoint& joint) { return joint.holdsRegion(); });
     for (std::size_t j = 1; j < joints.size(); ++j)
         joints[j].topmost = (roles.roles[j] == "Hips" || (isSmooth && &joints[j] == &*first)) &&
-                            !joints[regionAbove(joints, j)].holdsRegion;
+                            !joints[regionAbove(joints, j)].holdsRegion();
     return joints;
 }
 

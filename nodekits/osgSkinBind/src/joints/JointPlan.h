@@ -10,6 +10,7 @@
 #include <osgSkinRig/RestSkeleton>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,22 @@ namespace osgSkin {
 
 /// Joint centres closer than this fraction of the mesh's size are one point.
 constexpr double kCentreTolerance = 1e-6;
+
+enum class JointKind {
+    Limb,       ///< of an arm, a leg, a neck, a tail
+    Spine,      ///< of the trunk: spine, hips
+    CollarBone, ///< of the trunk, between the spine and an upper arm
+    Extremity,  ///< a topmost head, hand or foot
+    Digit,      ///< of a finger or toe: below an extremity that is not rigid
+};
+
+/// Which skin is a joint's region, and so gets a field of its own.
+enum class RegionSource {
+    None,    ///< no region: its skin is that of its children or of the region above
+    Helper,  ///< none, as it is at or below another joint's point
+    Bones,   ///< the skin around its bones, by the Delaunay step
+    Nearest, ///< outside the skin: the nearest skin
+};
 
 /// A joint's role and bone, as binding plans them before it finds regions.
 struct PlannedJoint {
@@ -32,19 +49,14 @@ struct PlannedJoint {
 
     JointPart part = JointPart::Other; ///< by its name
     int parent = -1;
-    int child = -1;         ///< the child that continues the chain, -1 for a leaf
-    int rigid = -1;         ///< the rigid joint at or above, or -1
-    bool extremity = false; ///< a topmost head, hand or foot
-    bool digit = false;     ///< of a finger or toe: below an extremity that is not rigid
+    int child = -1; ///< the child that continues the chain, -1 for a leaf
+    int rigid = -1; ///< the rigid joint at or above, or -1
+    JointKind kind = JointKind::Limb;
+    RegionSource region = RegionSource::None;
     bool topmost = false; ///< moves all skin: no region above it, as hips below a root on the floor
-    bool trunk = false;   ///< of the trunk: spine, hips, collar bones
-    bool collarBone = false;  ///< between the spine and an upper arm
     double armDistance = 0.0; ///< from a collar bone's joint to the upper arm's
-    bool helper = false;      ///< at or below another joint's point, and without a region
-    bool inside = false;      ///< the centre is inside the skin
-    bool outside = false;     ///< the centre is outside, and the joint is not below a rigid one
-    bool claims = false;      ///< outside the skin: takes the nearest skin
-    bool holdsRegion = false; ///< has a region, and so a field of its own; else its children's
+    /// Whether the centre is inside the skin; not set for a joint that has no region in any skin.
+    std::optional<bool> inside;
 
     /// The points of the joint in the Delaunay step, inside the skin.
     std::vector<glm::dvec3> samples;
@@ -54,8 +66,16 @@ struct PlannedJoint {
 
     JointBindOptions options; ///< by the author
 
-    /// Of the trunk, and not a collar bone.
-    bool isSpine() const { return trunk && !collarBone; }
+    bool isSpine() const { return kind == JointKind::Spine; }
+    bool isCollarBone() const { return kind == JointKind::CollarBone; }
+    bool isOfTrunk() const { return isSpine() || isCollarBone(); }
+    bool isExtremity() const { return kind == JointKind::Extremity; }
+    bool isDigit() const { return kind == JointKind::Digit; }
+    bool holdsRegion() const {
+        return region == RegionSource::Bones || region == RegionSource::Nearest;
+    }
+    bool isInside() const { return inside.value_or(false); }
+    bool isOutside(int index) const { return !inside.value_or(true) && !belowRigid(index); }
     bool belowRigid(int index) const { return rigid >= 0 && rigid != index; }
 };
 
@@ -73,7 +93,7 @@ std::vector<bool> subtreeOf(const std::vector<PlannedJoint>& joints, std::size_t
 /// The nearest joint above that has a region, or else the root.
 std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joint);
 
-/// Sets the joints' points for the Delaunay step, and `holdsRegion`. Part of planJoints().
+/// Sets the joints' points for the Delaunay step, and `region`. Part of planJoints().
 ///
 /// Points lie along the bones to the joint's children and to its tip, after Teichmann and Teller
 /// (1998), whom the paper follows; those of a bone without a length go to the region above. A last
@@ -86,7 +106,7 @@ std::size_t regionAbove(const std::vector<PlannedJoint>& joints, std::size_t joi
 /// IK target). A joint outside the skin in the middle of a chain claims the skin around it. If all
 /// joints are outside, all keep their regions.
 ///
-/// \param joints with axes, and with `holdsRegion` as far as it does not depend on the skin
+/// \param joints with axes, and with `region` as far as it does not depend on the skin
 void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles,
                 BindOptions::Method method, std::vector<PlannedJoint>& joints,
                 std::vector<std::string>& notes);

@@ -2,11 +2,11 @@
 #ifndef OSGSKINBIND_MESH_SURFACEQUERIES_H
 #define OSGSKINBIND_MESH_SURFACEQUERIES_H
 
+#include "mesh/SurfaceTree.h"
 #include "mesh/WeldedMesh.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,17 +51,14 @@ public:
     /// \param mesh must outlive this
     /// \param shell index of the shell
     ShellSurface(const WeldedMesh& mesh, std::uint32_t shell);
-    ~ShellSurface();
-    ShellSurface(const ShellSurface&) = delete;
 
     /// The nearest point; none if it is farther away than `reach`, or if no triangle has an area.
-    /// Only one thread at a time may call this.
     std::optional<SurfacePoint> nearest(const glm::dvec3& point, double reach) const;
 
 private:
-    struct Tree;
     const WeldedMesh& _mesh;
-    std::unique_ptr<Tree> _tree;
+    std::vector<std::array<std::uint32_t, 3>> _triangles;
+    SurfaceTree _tree;
 };
 
 } // namespace osgSkin

@@ -77,7 +77,7 @@ constexpr double kBetween = 0.02;
 
 /// Upper limit of gradientFactor(): a single needle of the mesh must not spread a field over the
 /// body.
-constexpr double kMost = 3.0;
+constexpr double kMax = 3.0;
 
 /// The width, in limb radii, that makes a field with given boundaries continuous across regions,
 /// and what is cut off again, so that the ratios are exact close beyond the boundaries.
@@ -208,8 +208,8 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
         return Widths{widths.above * smoothing * radius, widths.below * smoothing * radius};
     };
     if (joint.rigid >= 0) return times(kRigid);
-    if (joint.trunk) return times(joint.collarBone ? kCollar : kSpine);
-    if (joint.digit) {
+    if (joint.isOfTrunk()) return times(joint.isCollarBone() ? kCollar : kSpine);
+    if (joint.isDigit()) {
         const Widths widths = times(kOther);
         return {std::min(widths.above, kDigit * joint.lengthAbove),
                 std::min(widths.below, kDigit * joint.boneLength)};
@@ -225,7 +225,8 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
 
 /// True for the last joint of a finger or toe with several: all skin beyond it is its own.
 bool isLastDigit(const std::vector<PlannedJoint>& joints, const PlannedJoint& joint) {
-    return joint.digit && joint.child < 0 && joints[static_cast<std::size_t>(joint.parent)].digit;
+    return joint.isDigit() && joint.child < 0 &&
+           joints[static_cast<std::size_t>(joint.parent)].isDigit();
 }
 
 /// The skin of a joint and all below it.
@@ -254,9 +255,9 @@ std::vector<bool> isPartial(const std::vector<double>& field) {
 /// Evens out the stretch by an arm's swings of the skin between the arm and the trunk.
 /// \param third middleThird() of the arm, which keeps its values
 /// \param isFree for each vertex, whether it may change
-void evenOut(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
-             const std::vector<std::uint32_t>& third, double width, std::vector<bool> isFree,
-             std::vector<double>& field) {
+void equalise(const BinaryField& binary, const SkinSmoother& smoother, std::size_t joint,
+              const std::vector<std::uint32_t>& third, double width, std::vector<bool> isFree,
+              std::vector<double>& field) {
     const std::vector<glm::dvec3> swings = armSwings(binary.joints, joint);
     if (swings.empty()) return;
     for (const std::uint32_t v : third) isFree[v] = false;
@@ -277,11 +278,11 @@ void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii,
     for (std::size_t v = 0; v < binary.regions.size(); ++v) {
         const std::uint32_t joint = binary.regions[v];
         const PlannedJoint& bone = binary.joints[joint];
-        if (bone.trunk || bone.rigid >= 0 || !(radii[joint] > 0.0)) continue;
+        if (bone.isOfTrunk() || bone.rigid >= 0 || !(radii[joint] > 0.0)) continue;
         const double far = distanceToBone(bone, binary.mesh.positions[v]) / radii[joint];
         if (far <= kFarFromBone) continue;
         if (share.empty()) share.assign(binary.regions.size(), 1.0);
-        share[v] *= std::min(far, kMost);
+        share[v] *= std::min(far, kMax);
     }
 }
 
@@ -346,13 +347,13 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     Widths widths = firstWidths(binary.joints, joint, limb, onLimb, radii, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     const std::vector<bool> isHeld = // an arm follows its collar bone fully
-        planned.collarBone ? skinOf(binary, planned.child) : std::vector<bool>();
+        planned.isCollarBone() ? skinOf(binary, planned.child) : std::vector<bool>();
     std::vector<double> share;
-    if (limb && binary.joints[above].trunk)
+    if (limb && binary.joints[above].isOfTrunk())
         share = gradientFactor(binary.mesh,
                                spread(smoother, start, widths, {}, isHeld, options.cutOff));
     const bool leavesTrunk = !share.empty();
-    if (binary.joints[above].trunk) widenFarSkin(binary, radii, share);
+    if (binary.joints[above].isOfTrunk()) widenFarSkin(binary, radii, share);
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);
@@ -369,14 +370,14 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
         const Widths wider = {kRoom * widths.above, kRoom * widths.below};
         const std::vector<bool> isFree =
             isPartial(spread(smoother, start, wider, share, isHeld, options.cutOff));
-        evenOut(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
+        equalise(binary, smoother, joint, own, options.smoothing * radius, isFree, field);
     }
-    const bool isArmOrLeg = !planned.trunk && planned.rigid < 0 && !planned.digit &&
+    const bool isArmOrLeg = !planned.isOfTrunk() && planned.rigid < 0 && !planned.isDigit() &&
                             planned.boneLength > radius &&
                             !carries(binary.joints, joint, JointPart::Head);
     if (isArmOrLeg && middleThird(binary, joint).empty())
         endWithinBones(binary, joint,
-                       above > 0 && !binary.joints[above].trunk && planned.lengthAbove > 0.0,
+                       above > 0 && !binary.joints[above].isOfTrunk() && planned.lengthAbove > 0.0,
                        field);
     return field;
 }
@@ -412,7 +413,7 @@ std::vector<double> gradientFactor(const WeldedMesh& mesh, const std::vector<dou
             sum += slope[next];
             count += 1.0;
         }
-        share[v] = std::clamp(sum / (count * between), 1.0, kMost);
+        share[v] = std::clamp(sum / (count * between), 1.0, kMax);
     }
     return share;
 }
@@ -425,13 +426,13 @@ JointFields bendFields(const BinaryField& binary, const std::vector<double>& rad
     JointFields fields(joints.size(), binary.mesh.vertexCount());
     fields.set(0, std::vector<double>(binary.mesh.vertexCount(), 1.0));
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion) continue;
+        if (!joints[j].holdsRegion()) continue;
         begin(j);
         std::vector<double> field =
             hasBoundaries(joints[j])
                 ? boundedField(binary, smoother, j, radii[j], options.smoothing)
                 : smoothBend(binary, smoother, j, radii, options);
-        if (joints[j].digit && joints[regionAbove(joints, j)].extremity) {
+        if (joints[j].isDigit() && joints[regionAbove(joints, j)].isExtremity()) {
             // A finger moves no skin that its hand does not move.
             const std::vector<double> hand = fields.values(regionAbove(joints, j));
             for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], hand[v]);

@@ -145,7 +145,7 @@ enum class Follows { Nothing, Planes, Fully };
 /// The region that continues the joint's chain; the joint itself if there is none.
 std::size_t regionBelow(const std::vector<PlannedJoint>& joints, std::size_t joint) {
     int below = joints[joint].child;
-    while (below >= 0 && !joints[static_cast<std::size_t>(below)].holdsRegion)
+    while (below >= 0 && !joints[static_cast<std::size_t>(below)].holdsRegion())
         below = joints[static_cast<std::size_t>(below)].child;
     return below < 0 ? joint : static_cast<std::size_t>(below);
 }
@@ -183,7 +183,7 @@ BoundarySpan paperBendSpan(const PlannedJoint& joint, double radius) {
 }
 
 std::optional<BoundarySpan> paperTwistSpan(const PlannedJoint& joint, double radius) {
-    const bool alongBone = joint.poleIsParent || (!joint.extremity && joint.rigid < 0);
+    const bool alongBone = joint.poleIsParent || (!joint.isExtremity() && joint.rigid < 0);
     if (!(joint.poleLength > 0.0) || (!alongBone && !hasOwnTwistRegion(joint))) return std::nullopt;
     const BoundarySpan defaults =
         joint.poleIsParent ? BoundarySpan{-1.0, reach(unitLength(joint), radius) / joint.poleLength}
@@ -198,7 +198,7 @@ PaperFields::PaperFields(const BinaryField& binary, const std::vector<double>& r
     bend.set(0, std::vector<double>(vertices, 1.0));
     twist = bend;
     for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion) continue;
+        if (!joints[j].holdsRegion()) continue;
         const std::vector<Follows> regions = followersOf(joints, j);
         const PaperRegion bendAt = bendRegion(joints[j], radii[j]);
         const PaperRegion twistAt = twistRegion(joints[j], radii[j]);

@@ -105,7 +105,7 @@ BoundarySpan twistBoundaries(const PlannedJoint& joint, double radius) {
 /// True if the twist has a region of its own, along a limb to the next joint or the last bone's
 /// tip. Other twists follow the bend.
 bool buildsUp(const PlannedJoint& joint, double radius) {
-    if (!(joint.poleLength > 0.0) || joint.topmost || joint.digit) return false;
+    if (!(joint.poleLength > 0.0) || joint.topmost || joint.isDigit()) return false;
     if (joint.options.twistUpper || joint.options.twistLower || joint.poleIsParent) return true;
     return isLimb(joint, radius);
 }

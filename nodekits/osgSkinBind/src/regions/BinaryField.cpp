@@ -43,14 +43,14 @@ double distanceToLimb(const std::vector<PlannedJoint>& joints, const std::vector
                       const glm::dvec3& point) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < isOfLimb.size(); ++j)
-        if (isOfLimb[j] && joints[j].holdsRegion)
+        if (isOfLimb[j] && joints[j].holdsRegion())
             nearest = std::min(nearest, distanceToBone(joints[j], point));
     return nearest;
 }
 
 bool leavesTrunk(const std::vector<PlannedJoint>& joints, std::size_t joint) {
-    return joint > 0 && joints[joint].holdsRegion && !joints[joint].trunk &&
-           joints[regionAbove(joints, joint)].trunk;
+    return joint > 0 && joints[joint].holdsRegion() && !joints[joint].isOfTrunk() &&
+           joints[regionAbove(joints, joint)].isOfTrunk();
 }
 
 } // namespace
@@ -120,12 +120,12 @@ std::vector<double> BinaryField::bounded(std::size_t joint, double upper, double
 std::vector<double> limbRadii(const BinaryField& binary) {
     std::vector<double> radii(binary.joints.size(), 0.0);
     for (std::size_t j = 1; j < radii.size(); ++j)
-        if (binary.joints[j].holdsRegion) radii[j] = limbRadius(binary, j);
+        if (binary.joints[j].holdsRegion()) radii[j] = limbRadius(binary, j);
     return radii;
 }
 
 bool isLimb(const PlannedJoint& joint, double radius) {
-    return !joint.trunk && !joint.extremity && joint.rigid < 0 && joint.holdsRegion &&
+    return !joint.isOfTrunk() && !joint.isExtremity() && joint.rigid < 0 && joint.holdsRegion() &&
            joint.boneLength > kLimbLength * radius;
 }
 

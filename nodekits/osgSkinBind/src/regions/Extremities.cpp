@@ -254,7 +254,7 @@ void findExtremities(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints) 
     SectionFinder finder(mesh);
     const glm::dvec3 front = facing(joints);
     for (PlannedJoint& joint : joints)
-        if (joint.extremity && joint.holdsRegion && joint.lengthAbove > 0.0)
+        if (joint.isExtremity() && joint.holdsRegion() && joint.lengthAbove > 0.0)
             joint.beyond = beyondJoint(finder, mesh, joints, joint, front);
 }
 

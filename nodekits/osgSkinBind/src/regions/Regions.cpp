@@ -142,7 +142,7 @@ Regions seedRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joi
 }
 
 double reachFromBone(const PlannedJoint& joint, const std::vector<double>& radii) {
-    const double arm = joint.collarBone ? radii[static_cast<std::size_t>(joint.child)] : 0.0;
+    const double arm = joint.isCollarBone() ? radii[static_cast<std::size_t>(joint.child)] : 0.0;
     return arm > 0.0 ? kReachOfCollar * arm : std::numeric_limits<double>::infinity();
 }
 
@@ -153,11 +153,11 @@ void trimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints
                  std::vector<std::uint32_t>& jointOf) {
     const std::vector<double> radii = limbRadii({mesh, joints, jointOf});
     for (std::uint32_t j = static_cast<std::uint32_t>(joints.size()); j-- > 1;) {
-        if (!joints[j].holdsRegion || joints[j].rigid >= 0 || joints[j].topmost) continue;
+        if (!joints[j].holdsRegion() || joints[j].rigid >= 0 || joints[j].topmost) continue;
         const glm::dvec3 normal = planeNormal(joints[j]);
         const double reach = reachFromBone(joints[j], radii);
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
-        const bool leavesTrunk = joints[above].trunk && isLimb(joints[j], radii[j]);
+        const bool leavesTrunk = joints[above].isOfTrunk() && isLimb(joints[j], radii[j]);
         for (std::size_t v = 0; v < jointOf.size(); ++v) {
             if (jointOf[v] != j) continue;
             const glm::dvec3& p = mesh.positions[v];
@@ -177,7 +177,7 @@ struct NearBone {
 NearBone nearestBone(const glm::dvec3& p, const std::vector<PlannedJoint>& joints) {
     NearBone best;
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion) continue;
+        if (!joints[j].holdsRegion()) continue;
         const double distance = distanceToBone(joints[j], p);
         if (distance < best.distance) best = {j, distance};
     }
@@ -210,7 +210,7 @@ void assignUnreached(const WeldedMesh& mesh, const std::vector<PlannedJoint>& jo
 void claimRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
                   std::vector<std::uint32_t>& jointOf) {
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
-        if (!joints[j].claims) continue;
+        if (joints[j].region != RegionSource::Nearest) continue;
         const std::size_t above = regionAbove(joints, j);
         for (std::size_t v = 0; v < jointOf.size(); ++v) {
             const std::uint32_t owner = jointOf[v];
@@ -276,8 +276,8 @@ void extendDigits(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joint
                   std::vector<std::uint32_t>& jointOf) {
     std::vector<std::vector<std::uint32_t>> digitsBelow(joints.size());
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
-        if (!joints[j].digit || !joints[j].holdsRegion) continue;
-        for (std::size_t above = j; joints[above].digit;) {
+        if (!joints[j].isDigit() || !joints[j].holdsRegion()) continue;
+        for (std::size_t above = j; joints[above].isDigit();) {
             above = static_cast<std::size_t>(joints[above].parent);
             digitsBelow[above].push_back(j);
         }

@@ -313,7 +313,7 @@ bool isAnimatedAttachment(const Rig& rig) {
 }
 
 /// Callbacks of the application on a rig that its skin does not take over; may be empty.
-std::string whatIsLost(const osgAnimation::RigGeometry& rig) {
+std::string unsupportedParts(const osgAnimation::RigGeometry& rig) {
     const auto isOwn = [](const osg::Callback* callback) {
         return dynamic_cast<const osgAnimation::UpdateRigGeometry*>(callback) != nullptr;
     };
@@ -387,7 +387,7 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
     made.skins = makeSkins(body.mesh, body.parts, made.binding, whole).skins;
     for (std::size_t i = 0; i < taken.size(); ++i) {
         DeformableSkin& skin = *made.skins[i].drawable;
-        const std::string lost = whatIsLost(*taken[i]->geometry);
+        const std::string lost = unsupportedParts(*taken[i]->geometry);
         if (!lost.empty()) report.notes.push_back(nameOf(*taken[i]) + " loses its own " + lost);
         if (isAnimatedAttachment(*taken[i]))
             report.notes.push_back(nameOf(*taken[i]) +

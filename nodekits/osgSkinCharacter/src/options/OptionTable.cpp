@@ -105,19 +105,6 @@ std::vector<std::string> listOf(const std::string& text) {
     return names;
 }
 
-Option renamed(Option option, const char* formerWord) {
-    option.formerWord = formerWord;
-    return option;
-}
-
-/// Also accepts the name that a value had in earlier versions.
-Option withFormerValue(Option option, const std::string& former, const std::string& now) {
-    option.set = [set = option.set, former, now](LoadOptions& options, const std::string& text) {
-        return set(options, text == former ? now : text);
-    };
-    return option;
-}
-
 Option rigidOption() {
     Option option = textsOf({"rigid",
                              "head, hands and feet, by name; not those with fingers, toes or other "
@@ -238,23 +225,16 @@ std::vector<Option> makeTable() {
             {{"none", Shapes::None}, {"fast", Shapes::Fast}, {"elastic", Shapes::Elastic}}),
         onOff({"muscles", "off", "muscles of arms, legs, chest, shoulders and buttocks swell"},
               &LoadOptions::muscles),
-        withFormerValue(choice<std::optional<bool>, bool>(
-                            {"normals", "surface; rotated with paper and weights",
-                             "those of the deformed surface, or the rest skin's, rotated with "
-                             "their vertices: faster"},
-                            &LoadOptions::surfaceNormals, {{"surface", true}, {"rotated", false}}),
-                        "turned", "rotated"),
-        rigidOption(),
-        renamed(onOff({"avoidBody", "off",
-                       "motions from files keep forearms and hands out of trunk, thighs and head"},
-                      &LoadOptions::avoidBody),
-                "clearHands"),
-        unitOption(),
         choice<std::optional<bool>, bool>(
-            {"bones", "needed",
-             "whether bones follow motions where something needs them, as what hangs on them, or "
-             "always; skins do not need them"},
-            &LoadOptions::bonesFollow, {{"needed", false}, {"always", true}}),
+            {"normals", "surface; rotated with paper and weights",
+             "those of the deformed surface, or the rest skin's, rotated with their vertices: "
+             "faster"},
+            &LoadOptions::surfaceNormals, {{"surface", true}, {"rotated", false}}),
+        rigidOption(),
+        onOff({"avoidBody", "off",
+               "motions from files keep forearms and hands out of trunk, thighs and head"},
+              &LoadOptions::avoidBody),
+        unitOption(),
         motionOption(),
         onOff({"gpu", "off",
                "skins are deformed on the graphics card where a context has OpenGL 4.3"},
@@ -267,11 +247,10 @@ std::vector<Option> makeTable() {
              "file formats that may be read, as skin,obj,bvh,ply,gltf,glb, or all; all also "
              "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
             "extension,extension"),
-        renamed(readingOption({"images", "none",
-                               "images that OpenSceneGraph reads, from trusted files, beside "
-                               "those of formats, as ktx,dds"},
-                              "extension,extension"),
-                "pictures"),
+        readingOption({"images", "none",
+                       "images that OpenSceneGraph reads, from trusted files, beside those of "
+                       "formats, as ktx,dds"},
+                      "extension,extension"),
         readingOption({"maxFileMB", number(limits.fileMegabytes), "megabytes of any file"}),
         readingOption({"maxTextMB", number(limits.textMegabytes),
                        "megabytes of a .skin file, or one of weights"}),
@@ -294,9 +273,8 @@ std::vector<Option> makeTable() {
 
 const Option* findOption(const std::string& word) {
     const std::vector<Option>& table = optionTable();
-    const auto found = std::find_if(table.begin(), table.end(), [&](const Option& option) {
-        return option.word == word || (!word.empty() && option.formerWord == word);
-    });
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const Option& option) { return option.word == word; });
     return found == table.end() ? nullptr : &*found;
 }
 

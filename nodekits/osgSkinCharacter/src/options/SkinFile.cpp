@@ -259,8 +259,7 @@ void readWeightsFile(const JsonReader& root, const std::string& folder, SkinFile
 void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& skin) {
     for (const Option& option : optionTable()) {
         if (!option.isMember) continue;
-        const bool isFormer = !root.find(option.word) && !option.formerWord.empty();
-        const auto member = root.find(isFormer ? option.formerWord : option.word);
+        const auto member = root.find(option.word);
         if (!member) continue;
         if (option.word == "muscles" && member->isList())
             readMuscles(*member, skin);
@@ -276,8 +275,7 @@ const char* const kParts[] = {"osgskin", "mesh",   "skeleton", "motions", "props
 void warnUnknownMembers(const JsonReader& root) {
     std::vector<std::string> known(std::begin(kParts), std::end(kParts));
     for (const Option& option : optionTable())
-        for (const std::string& word : {option.word, option.formerWord})
-            if (option.isMember && !word.empty()) known.push_back(word);
+        if (option.isMember) known.push_back(option.word);
     root.warnUnknown(known);
 }
 

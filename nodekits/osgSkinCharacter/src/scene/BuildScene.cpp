@@ -12,7 +12,6 @@
 #include <osgSkin/GlmTypes>
 #include <osgSkin/ShareEqualData>
 #include <osgSkin/UpdateMorphs>
-#include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/NonUniformScale>
 #include <osgSkinBind/ShowRegions>
@@ -243,7 +242,6 @@ osg::BoundingSphere playedBounds(osg::Group& root, const osgAnimation::Animation
         if (duration <= 0.0) break;
     }
     root.setUpdateCallback(nullptr);
-    poseBones(root);
     return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
 }
 
@@ -346,7 +344,6 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         character.root->setInitialBound(clipBounds(character.motions.front().clip, character));
         character.pose(character.motions.front(), 0);
     }
-    if (source.options.bonesFollow.value_or(false)) setBonesFollow(*character.skeleton, true);
     play(character);
 }
 

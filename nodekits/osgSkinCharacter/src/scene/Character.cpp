@@ -53,9 +53,7 @@ osg::ref_ptr<osgAnimation::Bone> Character::bone(const std::string& name) {
     if (!skeleton) return nullptr;
     const osgAnimation::BoneMap bones = bonesOf(*skeleton);
     const auto found = bones.find(name);
-    if (found == bones.end()) return nullptr;
-    setBonesFollow(*skeleton, true);
-    return found->second;
+    return found == bones.end() ? nullptr : found->second;
 }
 
 std::vector<std::string> Character::morphs() const {

@@ -81,8 +81,7 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
         if (key == "formats") limits.formats = listOf(key, osgDB::convertToLowerCase(value));
-        if (key == "images" || key == "pictures")
-            limits.images = listOf(key, osgDB::convertToLowerCase(value));
+        if (key == "images") limits.images = listOf(key, osgDB::convertToLowerCase(value));
     }
     return limits;
 }

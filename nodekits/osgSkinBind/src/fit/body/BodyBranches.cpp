@@ -225,7 +225,7 @@ glm::dvec3 closestMiddle(const Section& a, const Section& b) {
 }
 
 /// Sections across a path between two fractions of its length, without those that cut the trunk.
-std::vector<Section> acrossPath(const BodySurface& surface, const BodyBranches::Path& path,
+std::vector<Section> acrossPath(const FitSurface& surface, const BodyBranches::Path& path,
                                 double from, double to) {
     constexpr int kSections = 60;
     constexpr double kTangent = 0.07; // fraction of the path that gives its direction
@@ -287,7 +287,7 @@ glm::dvec3 pathPoint(const BodyBranches::Path& path, double fraction) {
     return path.back();
 }
 
-std::vector<Section> limbSections(const BodySurface& surface, const BodyBranches::Path& path) {
+std::vector<Section> limbSections(const FitSurface& surface, const BodyBranches::Path& path) {
     constexpr double kLast = 0.88; // fingers have sections of their own
     const std::vector<Section> sections = acrossPath(surface, path, 0.1, kLast);
     // Medial curves waver, so repeat along the centres of these sections.
@@ -297,7 +297,7 @@ std::vector<Section> limbSections(const BodySurface& surface, const BodyBranches
     return acrossPath(surface, middle, 0.0, kLast);
 }
 
-std::optional<Fork> findFork(const BodySurface& surface, const BodyBranches::Path& a,
+std::optional<Fork> findFork(const FitSurface& surface, const BodyBranches::Path& a,
                              const BodyBranches::Path& b, const glm::dvec3& outside,
                              const glm::dvec3& direction, double reach) {
     constexpr double kStep = 0.004, kNear = 0.03;

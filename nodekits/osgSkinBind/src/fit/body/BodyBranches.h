@@ -2,8 +2,8 @@
 #ifndef OSGSKINBIND_FIT_BODY_BODYBRANCHES_H
 #define OSGSKINBIND_FIT_BODY_BODYBRANCHES_H
 
-#include "fit/body/BodySurface.h"
 #include "fit/body/CurveSkeleton.h"
+#include "fit/body/FitSurface.h"
 
 #include <glm/mat3x3.hpp>
 
@@ -45,7 +45,7 @@ glm::dvec3 pathPoint(const BodyBranches::Path& path, double fraction);
 
 /// Sections across a limb's medial curve, from the trunk outwards, without those that cut the
 /// trunk.
-std::vector<Section> limbSections(const BodySurface& surface, const BodyBranches::Path& path);
+std::vector<Section> limbSections(const FitSurface& surface, const BodyBranches::Path& path);
 
 /// Where two limbs, or a limb and the trunk, fork.
 struct Fork {
@@ -63,7 +63,7 @@ struct Fork {
 /// \param direction the plane's normal, unit, out of the fork
 /// \param reach how far to move, in heights
 /// \return not set if the sections do not join within reach
-std::optional<Fork> findFork(const BodySurface& surface, const BodyBranches::Path& a,
+std::optional<Fork> findFork(const FitSurface& surface, const BodyBranches::Path& a,
                              const BodyBranches::Path& b, const glm::dvec3& outside,
                              const glm::dvec3& direction, double reach);
 

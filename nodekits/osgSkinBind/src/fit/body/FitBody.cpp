@@ -2,7 +2,7 @@
 #include "fit/body/FitBody.h"
 
 #include "fit/body/BodyBranches.h"
-#include "fit/body/BodySurface.h"
+#include "fit/body/FitSurface.h"
 
 #include <osgSkin/Error>
 
@@ -30,7 +30,7 @@ struct FacingClues {
 };
 
 /// How far the middle of the feet is ahead of the shins.
-double feetAhead(const BodySurface& surface, const BodyBranches& branches) {
+double feetAhead(const FitSurface& surface, const BodyBranches& branches) {
     double result = 0.0;
     for (const BodyBranches::Path& leg : branches.legs) {
         if (leg.empty()) continue;
@@ -52,7 +52,7 @@ double feetAhead(const BodySurface& surface, const BodyBranches& branches) {
 }
 
 /// How much farther chin and nose overhang the neck than the back of the head does.
-double faceAhead(const BodySurface& surface, const BodyBranches& branches) {
+double faceAhead(const FitSurface& surface, const BodyBranches& branches) {
     double thinnest = std::numeric_limits<double>::infinity();
     double neckLow = 0.0, neckHigh = 0.0, neckTop = 0.0;
     for (double y = 0.93; y > 0.72; y -= 0.005) {
@@ -90,7 +90,7 @@ double elbowsBehind(const BodyBranches& branches) {
     return result;
 }
 
-FacingClues facingClues(const BodySurface& surface, const BodyBranches& branches) {
+FacingClues facingClues(const FitSurface& surface, const BodyBranches& branches) {
     return {feetAhead(surface, branches), faceAhead(surface, branches), elbowsBehind(branches)};
 }
 

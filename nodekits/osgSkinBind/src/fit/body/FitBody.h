@@ -3,7 +3,7 @@
 #define OSGSKINBIND_FIT_BODY_FITBODY_H
 
 #include "fit/body/BodyBranches.h"
-#include "fit/body/BodySurface.h"
+#include "fit/body/FitSurface.h"
 
 #include <osgSkinBind/FitOptions>
 
@@ -17,7 +17,7 @@ namespace osgSkin {
 /// 0, the top of the head at 1, x = 0 between left and right. A figure with a larger head than a
 /// person's has its neck where a person has it, and the top of the head above 1.
 struct FitBody {
-    BodySurface surface;
+    FitSurface surface;
     BodyBranches branches;
     double symmetryError = 0.0; ///< RMS distance between the skin and its mirror image
 

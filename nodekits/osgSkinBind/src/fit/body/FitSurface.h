@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBIND_FIT_BODY_BODYSURFACE_H
-#define OSGSKINBIND_FIT_BODY_BODYSURFACE_H
+#ifndef OSGSKINBIND_FIT_BODY_FITSURFACE_H
+#define OSGSKINBIND_FIT_BODY_FITSURFACE_H
 
 #include "fit/body/CurveSkeleton.h"
 #include "mesh/WeldedMesh.h"
@@ -46,15 +46,15 @@ namespace osgSkin {
 
 /// The closed, oriented surface that is measured: the body's largest shell, without eyes, teeth and
 /// clothes, with its holes (a mouth, a cut neck) closed; or a surface around all shells together.
-class BodySurface {
+class FitSurface {
 public:
     /// \param mesh the body, rest space
     /// \param filled the volume inside all shells; null: the largest shell is measured
     /// \param notes gets lines about shells left out and holes closed
     /// \throw Error if no closed surface can be made
-    BodySurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
-                std::vector<std::string>& notes);
-    ~BodySurface();
+    FitSurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
+               std::vector<std::string>& notes);
+    ~FitSurface();
 
     /// Moves all points: p becomes scale * rotation * (p - origin).
     void transform(const glm::dmat3& rotation, const glm::dvec3& origin, double scale);

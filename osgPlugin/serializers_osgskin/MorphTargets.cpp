@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Morph targets, the skins that have some, and the callback that animates them.
+// Morph targets, and the callback that animates them.
 // Callbacks have virtual bases, for which the wrapper's default cast does not compile.
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast
 
 #include "RegisterWrapper.h"
 
-#include <osgSkin/DeformableSkin>
 #include <osgSkin/MorphTargets>
 #include <osgSkin/UpdateMorphs>
 
@@ -104,71 +103,11 @@ bool readTargets(osgDB::InputStream& is, MorphTargets& targets) {
     return true;
 }
 
-bool checkMorphs(const osgSkin::DeformableSkin& skin) {
-    return skin.getMorphTargets() != nullptr;
-}
-
-bool writeMorphs(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
-    os << os.BEGIN_BRACKET << std::endl << skin.getMorphTargets();
-    os << os.END_BRACKET << std::endl;
-    return true;
-}
-
-bool readMorphs(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
-    is >> is.BEGIN_BRACKET;
-    const osg::ref_ptr<const MorphTargets> targets = is.readObjectOfType<MorphTargets>();
-    is >> is.END_BRACKET;
-    if (is.getException()) return false;
-    try {
-        skin.setMorphTargets(targets);
-    } catch (const std::exception& error) {
-        is.throwException(std::string("osgSkin: ") + error.what());
-        return false;
-    }
-    return true;
-}
-
-bool checkMorphWeights(const osgSkin::DeformableSkin& skin) {
-    return skin.isMorphed();
-}
-
-// Apart from the targets, because .osgx cannot have numbers behind an object.
-bool writeMorphWeights(osgDB::OutputStream& os, const osgSkin::DeformableSkin& skin) {
-    os << os.BEGIN_BRACKET << std::endl;
-    for (const float weight : skin.getMorphWeights()) os << weight;
-    os << std::endl << os.END_BRACKET << std::endl;
-    return true;
-}
-
-bool readMorphWeights(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
-    std::vector<float> weights(skin.getMorphWeights().size());
-    is >> is.BEGIN_BRACKET;
-    for (float& weight : weights) is >> weight;
-    is >> is.END_BRACKET;
-    if (is.getException()) return false;
-    if (skin.setMorphWeights(weights)) return true;
-    is.throwException("osgSkin: skin \"" + skin.getName() +
-                      "\" has a weight of a morph target that is not finite");
-    return false;
-}
-
 } // namespace
 
 REGISTER_OSGSKIN_WRAPPER(osgSkin_MorphTargets, new osgSkin::MorphTargets, osgSkin::MorphTargets,
                          "osg::Object osgSkin::MorphTargets") {
     ADD_USER_SERIALIZER(Targets);
-}
-
-namespace osgSkin {
-/// The name in files of a DeformableSkin with morph targets: one without is written as before them.
-using MorphedSkin = DeformableSkin;
-} // namespace osgSkin
-
-REGISTER_OSGSKIN_WRAPPER(osgSkin_MorphedSkin, new osgSkin::MorphedSkin, osgSkin::MorphedSkin,
-                         "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin "
-                         "osgSkin::MorphedSkin") {
-    ADD_USER_SERIALIZER(Morphs);
-    ADD_USER_SERIALIZER(MorphWeights);
 }
 
 REGISTER_OSGSKIN_WRAPPER(osgSkin_UpdateMorphs, new osgSkin::UpdateMorphs, osgSkin::UpdateMorphs,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/body/BodySurface.h"
+#include "fit/body/FitSurface.h"
 
 #include "fit/body/CurveSkeleton.h"
 #include "fit/body/SolidGrid.h"
 #include "fit/body/SurfaceMesh.h"
+#include "mesh/SurfaceTree.h"
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_halfedge_graph_segment_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -21,7 +21,6 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Polygon_mesh_slicer.h>
-#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -308,56 +307,58 @@ namespace {
 
 using fit::Kernel;
 using fit::Mesh;
-using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using EdgePrimitive = CGAL::AABB_halfedge_graph_segment_primitive<Mesh>;
 using EdgeTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, EdgePrimitive>>;
 using Slicer = CGAL::Polygon_mesh_slicer<Mesh, Kernel>;
-using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
 
 } // namespace
 
-struct BodySurface::Surface {
+struct FitSurface::Surface {
     Mesh mesh;
     std::vector<glm::dvec3> points;
-    std::unique_ptr<Tree> tree;
+    std::optional<SurfaceTree> tree;
+    std::optional<WindingTree> winding;
     std::unique_ptr<EdgeTree> edges;
-    std::unique_ptr<Inside> inside;
 
     void index() {
-        inside.reset();
         points.clear();
         for (const auto v : mesh.vertices()) points.push_back(fit::vector(mesh.point(v)));
-        tree = std::make_unique<Tree>(faces(mesh).begin(), faces(mesh).end(), mesh);
-        tree->accelerate_distance_queries();
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (const auto face : mesh.faces()) {
+            auto& triangle = triangles.emplace_back();
+            std::size_t k = 0;
+            for (const auto v : mesh.vertices_around_face(mesh.halfedge(face)))
+                triangle[k++] = static_cast<std::uint32_t>(v);
+        }
+        tree.emplace(points, triangles);
+        winding.emplace(points, triangles);
         edges =
             std::make_unique<EdgeTree>(CGAL::edges(mesh).begin(), CGAL::edges(mesh).end(), mesh);
-        inside = std::make_unique<Inside>(*tree);
     }
 };
 
-BodySurface::BodySurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
-                         std::vector<std::string>& notes)
+FitSurface::FitSurface(const WeldedMesh& mesh, const fit::SolidGrid* filled,
+                       std::vector<std::string>& notes)
     : _surface(std::make_unique<Surface>()) {
     _surface->mesh =
         filled ? fit::unionSurface(*filled, mesh, notes) : fit::largestSurface(mesh, notes);
     _surface->index();
 }
 
-BodySurface::~BodySurface() = default;
+FitSurface::~FitSurface() = default;
 
-void BodySurface::transform(const glm::dmat3& rotation, const glm::dvec3& origin, double scale) {
+void FitSurface::transform(const glm::dmat3& rotation, const glm::dvec3& origin, double scale) {
     for (const auto v : _surface->mesh.vertices())
         _surface->mesh.point(v) =
             fit::point(scale * (rotation * (fit::vector(_surface->mesh.point(v)) - origin)));
     _surface->index();
 }
 
-const std::vector<glm::dvec3>& BodySurface::points() const {
+const std::vector<glm::dvec3>& FitSurface::points() const {
     return _surface->points;
 }
 
-std::vector<Section> BodySurface::slice(const glm::dvec3& point, const glm::dvec3& normal) const {
+std::vector<Section> FitSurface::slice(const glm::dvec3& point, const glm::dvec3& normal) const {
     const Slicer slicer(_surface->mesh, *_surface->edges);
     std::list<std::vector<Kernel::Point_3>> curves;
     slicer(Kernel::Plane_3(fit::point(point), Kernel::Vector_3(normal.x, normal.y, normal.z)),
@@ -372,8 +373,8 @@ std::vector<Section> BodySurface::slice(const glm::dvec3& point, const glm::dvec
     return result;
 }
 
-std::optional<Section> BodySurface::sectionAt(const glm::dvec3& point, const glm::dvec3& normal,
-                                              double reach) const {
+std::optional<Section> FitSurface::sectionAt(const glm::dvec3& point, const glm::dvec3& normal,
+                                             double reach) const {
     std::optional<Section> best;
     double nearest = reach;
     for (Section& section : slice(point, normal)) {
@@ -387,15 +388,15 @@ std::optional<Section> BodySurface::sectionAt(const glm::dvec3& point, const glm
     return best;
 }
 
-bool BodySurface::isInside(const glm::dvec3& point) const {
-    return (*_surface->inside)(fit::point(point)) == CGAL::ON_BOUNDED_SIDE;
+bool FitSurface::isInside(const glm::dvec3& point) const {
+    return _surface->winding->inside(point);
 }
 
-glm::dvec3 BodySurface::nearest(const glm::dvec3& point) const {
-    return fit::vector(_surface->tree->closest_point(fit::point(point)));
+glm::dvec3 FitSurface::nearest(const glm::dvec3& point) const {
+    return _surface->tree->nearest(point).position;
 }
 
-CurveSkeleton BodySurface::curveSkeleton(const std::function<void(double)>& tell) const {
+CurveSkeleton FitSurface::curveSkeleton(const std::function<void(double)>& tell) const {
     return fit::contract(fit::simplified(_surface->mesh, tell));
 }
 
