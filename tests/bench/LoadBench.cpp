@@ -229,12 +229,11 @@ void addLoads() {
 
 void addLoadedFrames() {
     for (const std::size_t count : {20u, 100u, 1000u})
-        for (const auto& [name, mode] :
-             {std::pair("one thread", Mode{}),
-              {"parts merged", Mode{0, false, true}},
-              {"2 threads", Mode{2}},
-              {"copies", Mode{0, true}},
-              {"copies, 2 threads", Mode{2, true}}})
+        for (const auto& [name, mode] : {std::pair("one thread", Mode{}),
+                                         {"parts merged", Mode{0, false, true}},
+                                         {"2 threads", Mode{2}},
+                                         {"copies", Mode{0, true}},
+                                         {"copies, 2 threads", Mode{2, true}}})
             benchmark::RegisterBenchmark(
                 ("frame of loaded, " + std::string(name) + "/" + std::to_string(count)).c_str(),
                 loadedFrames, mode, count)

@@ -8,7 +8,6 @@
 #include "Tube.h"
 #include "Turns.h"
 
-
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
