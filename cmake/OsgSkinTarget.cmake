@@ -131,7 +131,6 @@ function(osgskin_plugin target)
     set_target_properties(${target} PROPERTIES DEBUG_POSTFIX d)
   endif()
   osgskin_settings(${target})
-  osgskin_batches(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
