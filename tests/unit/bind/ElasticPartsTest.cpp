@@ -45,14 +45,15 @@ Point randomPoint(std::mt19937& random, double reach) {
 
 TEST(WindingTree, TellsInsideFromOutside) {
     const ElasticTube tube;
-    const WindingTree tree(pointsOf(tube), tube.triangles);
+    const WindingTree tree(tube.positions, tube.triangles);
     std::mt19937 random(1);
     int inside = 0;
     for (int i = 0; i < 2000; ++i) {
-        const Point p = randomPoint(random, 2.0);
-        const double radius = std::hypot(p.x(), p.z());
+        const Point at = randomPoint(random, 2.0);
+        const glm::dvec3 p(at.x(), at.y(), at.z());
+        const double radius = std::hypot(p.x, p.z);
         if (radius > 0.98 && radius < 1.02) continue; // the tube's facets
-        EXPECT_EQ(tree.inside(p), radius < 1.0) << p.transpose();
+        EXPECT_EQ(tree.inside(p), radius < 1.0) << at.transpose();
         // Accuracy is low far from the boundary, but enough to distinguish it from one half.
         EXPECT_NEAR(std::abs(tree.at(p)), radius < 1.0 ? 1.0 : 0.0, 0.1);
         inside += radius < 1.0;
