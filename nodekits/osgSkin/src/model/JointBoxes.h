@@ -70,7 +70,7 @@ struct JointBoxes {
     explicit JointBoxes(const SkinModel& model);
 
     /// The most terms of a vertex: far more than a body has.
-    static constexpr std::size_t kMaxTerms = 64;
+    static constexpr std::size_t kMaxTerms = 1024;
 
     std::vector<Joint> joints;
     std::vector<Box> boxes;
