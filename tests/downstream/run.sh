@@ -69,7 +69,7 @@ c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
 
 echo "The programs and plug-ins"
 version=$(sed -n 's/^#define OSGSKIN_VERSION "\(.*\)"/\1/p' "$source/nodekits/osgSkin/include/osgSkin/Version")
-for program in bake crowd figures throw twist viewer; do
+for program in bake crowd recipes throw viewer; do
   "$prefix/bin/osgskin$program" --help >"$folder/help.txt"
   [ "$("$prefix/bin/osgskin$program" --version)" = "osgskin$program (osgSkin) $version" ] ||
     fail "osgskin$program --version"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,7 +109,8 @@ TEST(Robustness, IgnoresDecimalCommaOfTheLocale) {
         expectSame(loadCharacter(file), plain);
     }
     // Read by osgDB, and searched for numbers in its text.
-    const std::string saved = OSGSKIN_TEST_DATA "/saved/tube.osgt";
+    const std::string saved = test::makeTestFolder() + "/saved.osgt";
+    ASSERT_TRUE(osgDB::writeNodeFile(*loadCharacter(files[0]).root, saved));
     const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(saved);
     const CommaLocale comma;
     const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(saved);
