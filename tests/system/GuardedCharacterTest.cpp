@@ -140,7 +140,7 @@ TEST(GuardedCharacter, ReadsSavedScenesOnlyWithOptionFormats) {
     const std::string file = skin(folder, "saved", parts("body.osgt", rig));
     EXPECT_EQ(whyRefused(file, "formats=skin,osgt,bvh"), "read");
     expectContains(whyRefused(skin(folder, "bones", parts(kTubeFolder + "body.obj", "rig.osgt"))),
-                   "rig.osgt: a scene");
+                   "rig.osgt: OpenSceneGraph's own reader");
 }
 
 TEST(GuardedCharacter, AcceptsLongSkinFilesAndBracketsInNames) {
@@ -423,7 +423,7 @@ TEST(GuardedCharacter, RejectsBrokenGltf) {
          {{{"channels", {{{"sampler", 7}, {"target", {{"path", "scale"}}}}}},
            {"samplers", nlohmann::json::array()}}},
          "animations[0].channels.sampler"},
-        {"/asset/version", "1.0", "no glTF 2 file"},
+        {"/asset/version", "1.0", "not a glTF 2 file"},
     };
     EXPECT_EQ(whyRefused(triangle().save("triangle.gltf")), "read")
         << "without inverseBindMatrices";

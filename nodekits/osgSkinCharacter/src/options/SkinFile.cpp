@@ -122,7 +122,7 @@ std::string path(const JsonReader& reader, const std::string& folder) {
         reader.failWith("a name of " + std::to_string(name.size()) + " bytes, expected at most " +
                         std::to_string(longest));
     if (name.find('\0') != std::string::npos)
-        reader.failWith("a name with a byte 0 in it, expected none");
+        reader.failWith("the file's name contains a zero byte");
     return folder.empty() || osgDB::isAbsolutePath(name) ? name : osgDB::concatPaths(folder, name);
 }
 
