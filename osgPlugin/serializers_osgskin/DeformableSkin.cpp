@@ -311,6 +311,19 @@ bool readMorphWeights(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
            fail(is, skin, "a weight of a morph target that is not finite");
 }
 
+/// Reads nothing after an error: OSG reads on, and would replace the first reason by a later one.
+class SkinProperty : public osgDB::UserSerializer<osgSkin::DeformableSkin> {
+public:
+    using UserSerializer::UserSerializer;
+    bool read(osgDB::InputStream& is, osg::Object& object) override {
+        return !is.getException() && UserSerializer::read(is, object);
+    }
+};
+
+void add(osgDB::ObjectWrapper& wrapper, SkinProperty* property) {
+    wrapper.addSerializer(property, osgDB::BaseSerializer::RW_USER);
+}
+
 } // namespace
 
 REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
@@ -318,9 +331,10 @@ REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
                          "osg::Object osg::Node osg::Drawable osgSkin::DeformableSkin") {
     addFileVersion(*wrapper);
     ADD_BOOL_SERIALIZER(Eager, false);
-    ADD_USER_SERIALIZER(Skin);
-    ADD_USER_SERIALIZER(Tangents);
-    ADD_USER_SERIALIZER(Pose);
-    ADD_USER_SERIALIZER(Morphs);
-    ADD_USER_SERIALIZER(MorphWeights);
+    add(*wrapper, new SkinProperty("Skin", &checkSkin, &readSkin, &writeSkin));
+    add(*wrapper, new SkinProperty("Tangents", &checkTangents, &readTangents, &writeTangents));
+    add(*wrapper, new SkinProperty("Pose", &checkPose, &readPose, &writePose));
+    add(*wrapper, new SkinProperty("Morphs", &checkMorphs, &readMorphs, &writeMorphs));
+    add(*wrapper, new SkinProperty("MorphWeights", &checkMorphWeights, &readMorphWeights,
+                                   &writeMorphWeights));
 }

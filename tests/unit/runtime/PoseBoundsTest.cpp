@@ -246,12 +246,12 @@ TEST(PoseBounds, RefusesVertexThatFollowsManyBranches) {
     joint.parent = 0;
     tube.binding.influences.clear();
     tube.binding.firstInfluence = {0};
-    for (std::uint32_t j = 0; j < 100; ++j) {
+    for (std::uint32_t j = 0; j < 2000; ++j) {
         joint.name = std::to_string(j);
         if (j >= tube.binding.joints.size()) tube.binding.joints.push_back(joint);
     }
     for (std::size_t v = 0; v < tube.positions.size(); ++v) {
-        for (std::uint32_t j = 0; j < 100; ++j) tube.binding.influences.push_back({j, 1.0f, 1.0f});
+        for (std::uint32_t j = 0; j < 2000; ++j) tube.binding.influences.push_back({j, 1.0f, 1.0f});
         tube.binding.firstInfluence.push_back(
             static_cast<std::uint32_t>(tube.binding.influences.size()));
     }
