@@ -333,8 +333,8 @@ REGISTER_OSGSKIN_WRAPPER(osgSkin_DeformableSkin, new osgSkin::DeformableSkin,
     ADD_BOOL_SERIALIZER(Eager, false);
     add(*wrapper, new SkinProperty("Skin", &checkSkin, &readSkin, &writeSkin));
     add(*wrapper, new SkinProperty("Tangents", &checkTangents, &readTangents, &writeTangents));
-    add(*wrapper, new SkinProperty("Pose", &checkPose, &readPose, &writePose));
     add(*wrapper, new SkinProperty("Morphs", &checkMorphs, &readMorphs, &writeMorphs));
     add(*wrapper, new SkinProperty("MorphWeights", &checkMorphWeights, &readMorphWeights,
                                    &writeMorphWeights));
+    add(*wrapper, new SkinProperty("Pose", &checkPose, &readPose, &writePose));
 }
