@@ -253,7 +253,7 @@ struct PlayedBone {
 struct PlayedPart {
     osg::ref_ptr<RigidPart> part;
     std::size_t bone;
-    osg::Matrixd toSkeleton; ///< from the bone's node, while bones are skipped
+    osg::Matrixd toSkeleton; ///< from the bone's node, in the last pose()
 };
 
 struct PlayedChild {
