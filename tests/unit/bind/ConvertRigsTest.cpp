@@ -1,39 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Scaled bones: a converted skin compared with osgAnimation's result for the same rig.
 #include "RigScene.h"
 #include "Shapes.h"
 
-#include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinBind/AttachSkin>
-#include <osgSkinBind/Bind>
 #include <osgSkinBind/ConvertRigs>
-#include <osgSkinBind/MakeSkins>
 
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
-#include <osg/FrameStamp>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/Switch>
-#include <osgAnimation/BasicAnimationManager>
-#include <osgAnimation/Bone>
-#include <osgAnimation/Channel>
 #include <osgAnimation/MorphGeometry>
-#include <osgAnimation/RigGeometry>
-#include <osgAnimation/StackedMatrixElement>
-#include <osgAnimation/StackedScaleElement>
-#include <osgAnimation/UpdateBone>
-#include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <random>
 
 using namespace osgSkin;
@@ -69,7 +50,7 @@ std::vector<osg::Quat> someTurns(std::mt19937& random) {
 
 } // namespace
 
-TEST(ConvertRigs, KeepTheRestPoseToTheLastBit) {
+TEST(ConvertRigs, RestPoseIsBitIdentical) {
     Scene scene;
     const auto rig = makeRig(blended);
     scene.skeleton->addChild(rig);
@@ -84,7 +65,7 @@ TEST(ConvertRigs, KeepTheRestPoseToTheLastBit) {
         EXPECT_EQ(verticesOf(posed)[v], source[sourceOf(posed, v)]) << "vertex " << v;
 }
 
-TEST(ConvertRigs, RigidWeightsMoveAsLinearBlendingDoes) {
+TEST(ConvertRigs, RigidWeightsMatchLinearBlending) {
     Scene scene;
     scene.skeleton->addChild(makeRig(rigid));
     const ConvertReport report = convertRigs(*scene.root);
@@ -99,7 +80,7 @@ TEST(ConvertRigs, RigidWeightsMoveAsLinearBlendingDoes) {
     }
 }
 
-TEST(ConvertRigs, BlendedWeightsTakeTheModelsTurnAndEndWhereTheBonesDo) {
+TEST(ConvertRigs, BlendedWeightsKeepTheRadiusWhenTwisted) {
     Scene scene;
     scene.skeleton->addChild(makeRig(blended));
     const ConvertReport report = convertRigs(*scene.root);
@@ -123,7 +104,7 @@ TEST(ConvertRigs, BlendedWeightsTakeTheModelsTurnAndEndWhereTheBonesDo) {
     EXPECT_LT(linearRadius, 0.5);
 }
 
-TEST(ConvertRigs, AreReplacedWhereTheyStand) {
+TEST(ConvertRigs, ReplacesRigInPlaceAndKeepsItsState) {
     Scene scene;
     const osg::ref_ptr<osg::Group> dresser = new osg::Group;
     const osg::ref_ptr<osg::Node> before = new osg::Node, after = new osg::Node;
@@ -152,7 +133,7 @@ TEST(ConvertRigs, AreReplacedWhereTheyStand) {
     EXPECT_TRUE(convertRigs(*scene.root).skins.empty()) << "nothing is left to convert";
 }
 
-TEST(ConvertRigs, RigUnderATransformComesToStandUnderItsSkeleton) {
+TEST(ConvertRigs, MovesRigFromTransformToSkeleton) {
     Scene scene;
     const osg::ref_ptr<osg::MatrixTransform> aside = new osg::MatrixTransform;
     aside->setMatrix(osg::Matrix::translate(0, 0, 4));
@@ -171,7 +152,7 @@ TEST(ConvertRigs, RigUnderATransformComesToStandUnderItsSkeleton) {
                     1e-5);
 }
 
-TEST(ConvertRigs, CallbacksThatSkinsCannotKeepAreToldOf) {
+TEST(ConvertRigs, NotesLostUpdateCallbacks) {
     Scene scene;
     const auto rig = makeRig(blended, "coat");
     rig->addUpdateCallback(new osg::NodeCallback);
@@ -184,7 +165,7 @@ TEST(ConvertRigs, CallbacksThatSkinsCannotKeepAreToldOf) {
     EXPECT_EQ(report.notes[0], "rig \"coat\" loses its own update callback");
 }
 
-TEST(ConvertRigs, TransformsThatMoveARigAreToldOf) {
+TEST(ConvertRigs, NotesAnimatedTransformsAboveRigs) {
     for (const bool away : {false, true})
         for (const bool moves : {false, true}) {
             Scene scene;
@@ -205,7 +186,7 @@ TEST(ConvertRigs, TransformsThatMoveARigAreToldOf) {
 }
 
 /// Outside its transform it would be drawn at all distances, or although it is switched off.
-TEST(ConvertRigs, RigThatIsDrawnAtTimesStaysUnderItsTransform) {
+TEST(ConvertRigs, KeepsRigsUnderLodAndSwitch) {
     for (const double aside : {0.0, 4.0})
         for (const bool far : {false, true}) {
             Scene scene;
@@ -226,7 +207,7 @@ TEST(ConvertRigs, RigThatIsDrawnAtTimesStaysUnderItsTransform) {
         }
 }
 
-TEST(ConvertRigs, SeveralRigsOfOneSkeletonKeepTheirSeamsClosed) {
+TEST(ConvertRigs, RigsOfOneSkeletonKeepTheirSeamsClosed) {
     Scene scene;
     scene.skeleton->addChild(makeRig(blended, "skin"));
     // The same positions with different weights: without a common binding they would separate.
@@ -243,7 +224,7 @@ TEST(ConvertRigs, SeveralRigsOfOneSkeletonKeepTheirSeamsClosed) {
         EXPECT_LT((verticesOf(second)[v] - skin[sourceOf(second, v)]).length(), 1e-6f);
 }
 
-TEST(ConvertRigs, OwnBindingNeedsNoGoodWeights) {
+TEST(ConvertRigs, BestRatiosIgnoreBadWeights) {
     Scene scene;
     const auto all = [](double) { return std::array<float, 3>{1.0f, 0.0f, 0.0f}; };
     scene.skeleton->addChild(makeRig(all));
@@ -256,7 +237,7 @@ TEST(ConvertRigs, OwnBindingNeedsNoGoodWeights) {
     EXPECT_GT(differenceFromLinear(scene, *report.skins[0], all), 0.5);
 }
 
-TEST(ConvertRigs, LeaveAloneWhatTheyCannotConvertAndSayWhy) {
+TEST(ConvertRigs, SkipsUnsupportedRigsWithAReason) {
     Scene scene;
     const auto morph = makeRig(blended, "face");
     morph->setSourceGeometry(new osgAnimation::MorphGeometry(*morph->getSourceGeometry()));
@@ -303,415 +284,4 @@ TEST(ConvertRigs, LeaveAloneWhatTheyCannotConvertAndSayWhy) {
     }
     for (const auto& rig : {morph, unpainted, stray, points, infinite, halved, endless})
         EXPECT_TRUE(scene.skeleton->containsNode(rig)) << rig->getName();
-}
-
-namespace {
-
-osg::Matrixd& localOf(Scene& scene, std::size_t bone) {
-    auto& update = dynamic_cast<osgAnimation::UpdateBone&>(*scene.bones[bone]->getUpdateCallback());
-    auto& element =
-        static_cast<osgAnimation::StackedMatrixElement&>(*update.getStackedTransforms().front());
-    return const_cast<osg::Matrixd&>(element.getMatrix());
-}
-
-/// Sets the bones' own matrices: a rotation, then a scale, at the joint.
-struct Local {
-    osg::Quat turn;
-    osg::Vec3d scale{1, 1, 1};
-};
-
-void pose(Scene& scene, const std::array<Local, 3>& locals, const std::array<double, 3>& offsets) {
-    for (std::size_t b = 0; b < 3; ++b)
-        localOf(scene, b) = osg::Matrixd::scale(locals[b].scale) *
-                            osg::Matrixd::rotate(locals[b].turn) *
-                            osg::Matrixd::translate(0, offsets[b], 0);
-    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
-    osgUtil::UpdateVisitor visitor;
-    visitor.setFrameStamp(stamp);
-    scene.root->accept(visitor);
-}
-
-const std::array<double, 3> kOffsets{kHeights[0], kHeights[1] - kHeights[0],
-                                     kHeights[2] - kHeights[1]};
-
-/// The same rig twice: one converted, one posed by osgAnimation itself.
-struct Pair {
-    Scene ours, theirs;
-    osg::ref_ptr<osgAnimation::RigGeometry> rig;
-    ConvertReport report;
-
-    explicit Pair(Paint paint, const std::function<void(Scene&)>& change = {}) {
-        ours.skeleton->addChild(makeRig(paint));
-        rig = makeRig(paint);
-        theirs.skeleton->addChild(rig);
-        if (change)
-            for (Scene* scene : {&ours, &theirs}) change(*scene);
-        report = convertRigs(*ours.root);
-        EXPECT_EQ(report.skins.size(), 1u);
-    }
-
-    double difference(const std::array<Local, 3>& locals,
-                      const std::array<double, 3>& offsets = kOffsets) {
-        for (Scene* scene : {&ours, &theirs}) pose(*scene, locals, offsets);
-        // A rig finds its bones in its first update and is deformed in the second.
-        pose(theirs, locals, offsets);
-        const osg::Geometry& posed = *report.skins.at(0)->getDeformedGeometry();
-        const osg::Vec3Array& expected = verticesOf(*rig);
-        double worst = 0.0;
-        for (std::size_t v = 0; v < verticesOf(posed).size(); ++v)
-            worst = std::max(
-                worst, double((verticesOf(posed)[v] - expected[sourceOf(posed, v)]).length()));
-        const osg::BoundingBox& box = report.skins[0]->getBoundingBox();
-        for (const osg::Vec3& v : verticesOf(posed))
-            for (int axis = 0; axis < 3; ++axis)
-                EXPECT_TRUE(v[axis] > box._min[axis] - 1e-4f && v[axis] < box._max[axis] + 1e-4f);
-        return worst;
-    }
-};
-
-const std::array<Local, 3> kRest{};
-const std::array<Local, 3> kTurned{Local{osg::Quat(0.4, osg::Vec3d(1, 2, 0))},
-                                   Local{osg::Quat(0.9, osg::Vec3d(0, 1, 3))},
-                                   Local{osg::Quat(-1.2, osg::Vec3d(1, 0, 1))}};
-
-std::array<Local, 3> scaled(std::array<Local, 3> locals, const std::array<double, 3>& by) {
-    for (std::size_t b = 0; b < 3; ++b) locals[b].scale = osg::Vec3d(by[b], by[b], by[b]);
-    return locals;
-}
-
-constexpr double kSize = 6.5; ///< the cylinder's
-
-} // namespace
-
-/// As in FBX files in centimetres: the bones are scaled, also in the bind pose.
-TEST(ConvertScale, ThatIsInTheBindPoseTooChangesNothing) {
-    const std::array<double, 3> by{100.0, 0.5, 0.02};
-    const std::array<double, 3> offsets{kOffsets[0], kOffsets[1] / 100.0, kOffsets[2] / 50.0};
-    for (const Paint paint : {Paint(rigid), Paint(blended)}) {
-        Pair pair(paint, [&](Scene& scene) {
-            double size = 1.0;
-            for (std::size_t b = 0; b < 3; ++b) {
-                size *= by[b];
-                scene.bones[b]->setInvBindMatrixInSkeletonSpace(
-                    osg::Matrix::translate(0, -kHeights[b], 0) *
-                    osg::Matrix::scale(1.0 / size, 1.0 / size, 1.0 / size));
-            }
-        });
-        EXPECT_TRUE(pair.report.notes.empty());
-        EXPECT_LT(pair.difference(scaled(kRest, by), offsets), 1e-6 * kSize);
-        if (paint == Paint(rigid)) {
-            EXPECT_LT(pair.difference(scaled(kTurned, by), offsets), 1e-6 * kSize);
-        }
-    }
-}
-
-TEST(ConvertScale, OfTheWholeFigureIsFollowed) {
-    Pair painted(blended), rigidly(rigid);
-    for (const double by : {2.0, 0.01, 30.0}) {
-        EXPECT_LT(painted.difference(scaled(kRest, {by, 1, 1})), 1e-6 * kSize * by);
-        EXPECT_LT(rigidly.difference(scaled(kTurned, {by, 1, 1})), 2e-6 * kSize * by);
-    }
-}
-
-/// Animated from frame to frame, every bone separately.
-TEST(ConvertScale, OfSingleBonesIsFollowed) {
-    Pair rigidly(rigid), painted(blended);
-    for (int frame = 0; frame < 40; ++frame) {
-        const double t = 0.1 * frame;
-        const std::array<double, 3> by{1.0 + 0.2 * std::sin(t), 1.0 + 0.5 * std::sin(2.0 * t),
-                                       std::exp(std::sin(3.0 * t))};
-        EXPECT_LT(rigidly.difference(scaled(kTurned, by)), 1e-5 * kSize) << "frame " << frame;
-        EXPECT_LT(rigidly.difference(scaled(kRest, by)), 1e-5 * kSize) << "frame " << frame;
-    }
-    // One joint per vertex and no rotation: its share of the scale equals that of linear blending.
-    EXPECT_LT(painted.difference(scaled(kRest, {1.0, 1.5, 1.0})), 1e-5 * kSize);
-    EXPECT_LT(painted.difference(scaled(kRest, {1.0, 1.0, 0.4})), 1e-5 * kSize);
-}
-
-TEST(ConvertScale, AboveTheSkeletonIsTheScenes) {
-    Pair pair(rigid, [](Scene& scene) {
-        const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform(
-            osg::Matrix::scale(0.01, 0.01, 0.01) * osg::Matrix::rotate(1.0, osg::Vec3d(1, 0, 0)));
-        scene.root->removeChild(scene.skeleton);
-        above->addChild(scene.skeleton);
-        scene.root->addChild(above);
-        scene.skeleton->setMatrix(osg::Matrix::scale(5, 5, 5));
-    });
-    EXPECT_TRUE(pair.report.notes.empty());
-    EXPECT_LT(pair.difference(kRest), 1e-6 * kSize);
-    EXPECT_LT(pair.difference(kTurned), 1e-6 * kSize);
-}
-
-TEST(ConvertScale, ThatIsUnevenIsNoted) {
-    Scene scene;
-    scene.skeleton->setName("figure");
-    scene.skeleton->addChild(makeRig(blended));
-    localOf(scene, 1) = osg::Matrixd::scale(1.0, 1.5, 1.0) * osg::Matrixd::translate(0, 2.4, 0);
-    const ConvertReport report = convertRigs(*scene.root);
-    EXPECT_EQ(report.skins.size(), 1u);
-    ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0], "skeleton \"figure\": bone \"bone1\" in the scene and 1 more scaled "
-                               "non-uniformly, mirrored or to zero, which skins do not follow");
-}
-
-TEST(ConvertScale, ThatAClipMakesUnevenIsNoted) {
-    for (const bool even : {true, false}) {
-        Scene scene;
-        scene.skeleton->addChild(makeRig(blended));
-        for (std::size_t b = 0; b < 3; ++b)
-            localOf(scene, b) = osg::Matrixd::translate(0, kOffsets[b], 0);
-        const osg::ref_ptr<osgAnimation::Animation> clip = new osgAnimation::Animation;
-        clip->setName("stretch");
-        const osg::ref_ptr<osgAnimation::Vec3LinearChannel> channel =
-            new osgAnimation::Vec3LinearChannel;
-        channel->setName("scale");
-        channel->setTargetName("bone2");
-        auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
-        keys->push_back(osgAnimation::Vec3Keyframe(0.0, osg::Vec3(1, 1, 1)));
-        keys->push_back(
-            osgAnimation::Vec3Keyframe(1.0, even ? osg::Vec3(2, 2, 2) : osg::Vec3(1, 2, 1)));
-        clip->addChannel(channel);
-        const osg::ref_ptr<osgAnimation::BasicAnimationManager> manager =
-            new osgAnimation::BasicAnimationManager;
-        manager->registerAnimation(clip);
-        scene.root->setUpdateCallback(manager);
-        const ConvertReport report = convertRigs(*scene.skeleton); // the manager is above it
-        EXPECT_EQ(report.skins.size(), 1u);
-        ASSERT_EQ(report.notes.size(), even ? 0u : 1u);
-        if (!even) {
-            EXPECT_NE(
-                report.notes[0].find("bone \"bone2\" in the clip \"stretch\" scaled non-uniformly"),
-                std::string::npos)
-                << report.notes[0];
-        }
-    }
-}
-
-namespace {
-
-/// A cylinder over three bones, the last one rigid, in two parts: its lower and its upper half.
-struct PartedBody {
-    SkinMesh mesh = shapes::cylinder();
-    Binding binding;
-    RigidSplit split;
-    std::vector<MeshPart> parts;
-
-    PartedBody() {
-        RestSkeleton skeleton = shapes::chainAlongY({0.6, 3.0, 5.5}, 6.5);
-        for (std::size_t j = 0; j < 3; ++j) skeleton.joints[j].name = "bone" + std::to_string(j);
-        BindOptions options;
-        options.rigid = std::vector<std::string>{"bone2"};
-        binding = bind(mesh, skeleton, options);
-        split = splitRigid(mesh, binding, {"bone2"});
-        parts = {makePart(0.0, 3.0), makePart(3.0, 100.0)};
-    }
-
-    /// The faces whose first corner is between these heights.
-    MeshPart makePart(double low, double high) const {
-        MeshPart part;
-        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array,
-                                           normals =
-                                               new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-        for (const glm::dvec3& p : mesh.positions) {
-            vertices->push_back(osg::Vec3(toOsg(p)));
-            normals->push_back(osg::Vec3(0, 1, 0));
-        }
-        part.sourceVertex.resize(mesh.positions.size());
-        std::iota(part.sourceVertex.begin(), part.sourceVertex.end(), 0u);
-        const osg::ref_ptr<osg::DrawElementsUInt> elements =
-            new osg::DrawElementsUInt(GL_TRIANGLES);
-        std::size_t corner = 0;
-        for (std::uint32_t f = 0; f < mesh.faceSizes.size(); ++f) {
-            const std::uint32_t* corners = &mesh.faceVertices[corner];
-            corner += mesh.faceSizes[f];
-            const double height = mesh.positions[corners[0]].y;
-            if (height < low || height >= high) continue;
-            for (std::uint32_t k = 2; k < mesh.faceSizes[f]; ++k) {
-                for (const std::uint32_t c : {corners[0], corners[k - 1], corners[k]})
-                    elements->push_back(c);
-                part.sourceFace.push_back(f);
-            }
-        }
-        part.geometry = new osg::Geometry;
-        part.geometry->setVertexArray(vertices);
-        part.geometry->setNormalArray(normals);
-        part.geometry->addPrimitiveSet(elements);
-        return part;
-    }
-};
-
-std::size_t triangles(const PartedBody& body) {
-    return body.parts[0].sourceFace.size() + body.parts[1].sourceFace.size();
-}
-
-} // namespace
-
-TEST(MakeSkins, NeedsNoSkeletonAndKeepsEveryFace) {
-    const PartedBody body;
-    const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
-    ASSERT_EQ(made.skins.size(), 2u);
-    ASSERT_EQ(made.rigids.size(), 1u) << "the lower half has no rigid face";
-    EXPECT_EQ(made.rigids[0].joint, "bone2");
-    std::size_t faces = made.rigids[0].part.sourceFace.size();
-    for (const SkinParts::Skin& skin : made.skins) {
-        faces += skin.part.sourceFace.size();
-        EXPECT_EQ(skin.drawable->getNumParents(), 0u);
-        EXPECT_NE(skin.drawable->getUpdateCallback(), nullptr);
-        const auto& model = *skin.drawable->getModel();
-        ASSERT_EQ(model.vertexCount(), skin.part.sourceVertex.size());
-        for (std::uint32_t v = 0; v < model.vertexCount(); ++v) {
-            EXPECT_EQ(model.order()[v], v) << "not in the order of the deformation";
-            EXPECT_EQ(model.positions()[v],
-                      glm::vec3(body.mesh.positions[skin.part.sourceVertex[v]]));
-        }
-    }
-    EXPECT_EQ(faces, triangles(body));
-}
-
-TEST(MakeSkins, RefusesWhatDoesNotFit) {
-    const PartedBody body;
-    EXPECT_THROW(makeSkins(shapes::cylinder(2.0), body.parts, body.binding, body.split), Error);
-    RigidSplit shorter = body.split;
-    shorter.faceJoint.pop_back();
-    EXPECT_THROW(makeSkins(body.mesh, body.parts, body.binding, shorter), Error);
-    RigidSplit strange = body.split;
-    strange.faceJoint.back() = 3;
-    EXPECT_THROW(makeSkins(body.mesh, body.parts, body.binding, strange), Error);
-    std::vector<MeshPart> parts = body.parts;
-    parts[1].sourceVertex.pop_back();
-    EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
-    parts[1].geometry = nullptr;
-    EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
-    parts[1] = body.parts[1];
-    parts[1].morphs = {{"smile", 0.0f, {1000000}, {glm::vec3(1.0f)}, {}, {}}};
-    EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
-    parts[1].morphs = {{"smile", 0.0f, {1, 2}, {glm::vec3(1.0f)}, {}, {}}};
-    EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
-    Binding broken = body.binding;
-    broken.influences[2].joint = 9;
-    EXPECT_THROW(makeSkins(body.mesh, body.parts, broken, body.split), Error);
-}
-
-TEST(MakeSkins, RefusesPartsThatWouldBeReadBeyondTheirEnds) {
-    const PartedBody body;
-    const auto refuses = [&](void (*spoil)(MeshPart&, osg::DrawElementsUInt&)) {
-        std::vector<MeshPart> parts = {body.makePart(0.0, 100.0)};
-        spoil(parts[0],
-              static_cast<osg::DrawElementsUInt&>(*parts[0].geometry->getPrimitiveSet(0)));
-        EXPECT_THROW(makeSkins(body.mesh, parts, body.binding, body.split), Error);
-    };
-    refuses([](MeshPart&, osg::DrawElementsUInt& elements) { elements[4] = 1000000; });
-    refuses([](MeshPart&, osg::DrawElementsUInt& elements) { elements.pop_back(); });
-    refuses([](MeshPart&, osg::DrawElementsUInt& elements) { elements.resize(9); });
-    refuses(
-        [](MeshPart&, osg::DrawElementsUInt& elements) { elements.setMode(GL_TRIANGLE_STRIP); });
-    refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.sourceFace.resize(3); });
-    refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.geometry->setNormalArray(nullptr); });
-    refuses([](MeshPart& part, osg::DrawElementsUInt&) { part.geometry->setVertexArray(nullptr); });
-}
-
-namespace {
-
-/// Parts whose target "odd" moves every other vertex of the mesh by its index.
-PartedBody morphingBody() {
-    PartedBody body;
-    for (MeshPart& part : body.parts) {
-        MorphTarget& odd = part.morphs.emplace_back();
-        odd.name = "odd";
-        odd.initial = 0.5f;
-        for (std::uint32_t v = 1; v < part.sourceVertex.size(); v += 2) {
-            odd.vertices.push_back(v);
-            odd.positions.emplace_back(float(v), 0.0f, 0.0f);
-            odd.normals.emplace_back(0.0f, 0.0f, float(v));
-        }
-    }
-    return body;
-}
-
-void expectOdd(const MorphTarget& odd, const std::vector<std::uint32_t>& source) {
-    EXPECT_EQ(odd.name, "odd");
-    EXPECT_EQ(odd.initial, 0.5f);
-    EXPECT_EQ(odd.vertices.size(),
-              std::size_t(std::count_if(source.begin(), source.end(),
-                                        [](std::uint32_t v) { return v % 2 == 1; })));
-    for (std::size_t i = 0; i < odd.vertices.size(); ++i) {
-        const auto vertex = float(source.at(odd.vertices[i]));
-        EXPECT_EQ(odd.positions[i], glm::vec3(vertex, 0.0f, 0.0f));
-        EXPECT_EQ(odd.normals[i], glm::vec3(0.0f, 0.0f, vertex));
-    }
-}
-
-} // namespace
-
-TEST(MakeSkins, MorphTargetsGoWithTheirVertices) {
-    const PartedBody body = morphingBody();
-    const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
-    ASSERT_EQ(made.skins.size(), 2u);
-    for (const SkinParts::Skin& skin : made.skins) {
-        const osgSkin::MorphTargets* targets = skin.drawable->getMorphTargets();
-        ASSERT_NE(targets, nullptr);
-        ASSERT_EQ(targets->targets().size(), 1u);
-        expectOdd(targets->targets()[0], skin.part.sourceVertex);
-    }
-    ASSERT_EQ(made.rigids.size(), 1u);
-    ASSERT_EQ(made.rigids[0].part.morphs.size(), 1u);
-    expectOdd(made.rigids[0].part.morphs[0], made.rigids[0].part.sourceVertex);
-}
-
-TEST(PlaceSkins, RigidPartsWithMorphTargetsAreSkinsAtRest) {
-    const PartedBody body = morphingBody();
-    rigs::Scene scene;
-    const AttachedSkin placed =
-        placeSkins(*scene.skeleton, makeSkins(body.mesh, body.parts, body.binding, body.split));
-    ASSERT_EQ(placed.rigids.size(), 1u);
-    auto* skin = dynamic_cast<osgSkin::DeformableSkin*>(placed.rigids[0].node->getChild(0));
-    ASSERT_NE(skin, nullptr);
-    EXPECT_EQ(skin->getUpdateCallback(), nullptr);
-    const std::vector<std::uint32_t>& source = placed.rigids[0].part.sourceVertex;
-    for (const float weight : {0.5f, 0.75f}) {
-        ASSERT_TRUE(skin->setMorph("odd", weight));
-        const auto& drawn =
-            dynamic_cast<const osg::Vec3Array&>(*skin->getDeformedGeometry()->getVertexArray());
-        ASSERT_EQ(drawn.size(), source.size());
-        for (std::size_t v = 0; v < source.size(); ++v) {
-            glm::dvec3 expected = body.mesh.positions[source[v]];
-            if (source[v] % 2 == 1) expected.x += (double(weight) - 0.5) * source[v];
-            EXPECT_LT((osg::Vec3d(drawn[v]) - toOsg(expected)).length(), 1e-4) << source[v];
-        }
-    }
-}
-
-TEST(PlaceSkins, HangsSkinsUnderTheSkeletonAndRigidPartsUnderTheirBones) {
-    const PartedBody body;
-    rigs::Scene scene;
-    const unsigned int before = scene.skeleton->getNumChildren();
-    const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
-    const AttachedSkin placed = placeSkins(*scene.skeleton, made);
-    ASSERT_EQ(placed.skins.size(), 2u);
-    EXPECT_EQ(scene.skeleton->getNumChildren(), before + 2);
-    for (unsigned int i = 0; i < 2; ++i)
-        EXPECT_EQ(scene.skeleton->getChild(before + i), placed.skins[i].drawable.get());
-    ASSERT_EQ(placed.rigids.size(), 1u);
-    EXPECT_EQ(placed.rigids[0].bone, scene.bones[2]);
-    EXPECT_TRUE(scene.bones[2]->containsNode(placed.rigids[0].node));
-}
-
-/// Such as a rider's, with bones of the same names.
-TEST(PlaceSkins, LeavesASkeletonBelowAsItIs) {
-    const PartedBody body;
-    rigs::Scene scene, rider;
-    scene.bones[2]->addChild(rider.skeleton);
-    const AttachedSkin placed =
-        placeSkins(*scene.skeleton, makeSkins(body.mesh, body.parts, body.binding, body.split));
-    ASSERT_EQ(placed.rigids.size(), 1u);
-    EXPECT_EQ(placed.rigids[0].bone, scene.bones[2]);
-}
-
-TEST(PlaceSkins, WithoutTheRigidPartsBonePlacesNothing) {
-    const PartedBody body;
-    const SkinParts made = makeSkins(body.mesh, body.parts, body.binding, body.split);
-    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
-    EXPECT_THROW(placeSkins(*skeleton, made), Error);
-    EXPECT_EQ(skeleton->getNumChildren(), 0u);
-    EXPECT_EQ(made.skins[0].drawable->getNumParents(), 0u);
 }

@@ -4,8 +4,6 @@
 #include "KnownBody.h"
 #include "Shapes.h"
 #include "Stretches.h"
-#include "fit/body/SolidGrid.h"
-#include "mesh/SurfaceQueries.h"
 
 #include <osgSkinBind/Bind>
 
@@ -18,9 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
-#include <numeric>
-#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -138,7 +133,7 @@ TEST(Layers, LinedClothFollowsTheSkinBelow) {
     EXPECT_LT(stretched, 1.25);
 }
 
-TEST(Layers, SleeveBesideTheBodyGoesWithItsArm) {
+TEST(Layers, SleeveBesideTheBodyFollowsItsArm) {
     // Nearer to the trunk than to its own arm.
     const auto isSleeve = [](const glm::dvec3& p) { return p.x > 1.1 && p.y < -0.2 && p.y > -3.0; };
     KnownBody bare{shapes::hangingArms(), shapes::hangingArmsSkeleton()};
@@ -154,7 +149,7 @@ TEST(Layers, SleeveBesideTheBodyGoesWithItsArm) {
     }
 }
 
-TEST(Layers, WhatAloneHasAJointKeepsIt) {
+TEST(Layers, ShellWithItsOwnJointKeepsIt) {
     // A ball with its own joint, half outside a cylinder, like an eye.
     SkinMesh body = shapes::cylinder();
     const SkinMesh ball = shapes::voxelSurface(
@@ -178,7 +173,7 @@ TEST(Layers, WhatAloneHasAJointKeepsIt) {
     EXPECT_GT(sum / static_cast<double>(body.positions.size() - first), 0.4);
 }
 
-TEST(Layers, WhatLiesOnALooseLayerIsBound) {
+TEST(Layers, ShellOnALooseLayerIsBound) {
     // A belt around a skirt, far from the body, which the skirt touches at its upper end.
     const SkinMesh body = shapes::cylinder(8.0, 16);
     SkinMesh skirt = shapes::garment(
@@ -199,7 +194,7 @@ TEST(Layers, WhatLiesOnALooseLayerIsBound) {
     }
 }
 
-TEST(Layers, AreReported) {
+TEST(Layers, ReportCountsLayeredVertices) {
     const KnownBody thrower = KnownBody::thrower();
     const SkinMesh cloth = shapes::garment(thrower.mesh, isDressed, 0.008);
     BindReport report;
@@ -210,109 +205,4 @@ TEST(Layers, AreReported) {
               std::string::npos);
     bind(thrower.mesh, thrower.truth, {}, &report);
     EXPECT_EQ(report.layeredVertices, 0u);
-}
-
-namespace {
-
-using Indices = std::vector<std::uint32_t>;
-
-/// Brute force; the first of equally near points.
-Indices byTrying(const std::vector<glm::dvec3>& points, const Indices& candidates,
-                 const Indices& queries) {
-    Indices result;
-    for (const std::uint32_t q : queries) {
-        double least = std::numeric_limits<double>::infinity();
-        std::uint32_t best = 0;
-        for (const std::uint32_t c : candidates) {
-            const glm::dvec3 d = points[c] - points[q];
-            if (glm::dot(d, d) > least || (glm::dot(d, d) == least && c > best)) continue;
-            least = glm::dot(d, d);
-            best = c;
-        }
-        result.push_back(best);
-    }
-    return result;
-}
-
-struct Case {
-    const char* name;
-    double step; ///< coordinates are multiples of it; 0: any
-};
-
-class NearestPointsAmong : public testing::TestWithParam<Case> {};
-
-TEST_P(NearestPointsAmong, AreThoseFoundByTryingAll) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    const auto coordinate = [&] {
-        const double x = uniform(random);
-        return GetParam().step > 0.0 ? GetParam().step * std::round(x / GetParam().step) : x;
-    };
-    std::vector<glm::dvec3> points(2000);
-    for (glm::dvec3& p : points) p = {coordinate(), coordinate(), coordinate()};
-    Indices all(points.size());
-    std::iota(all.begin(), all.end(), 0u);
-    std::shuffle(all.begin(), all.end(), random);
-    const Indices candidates(all.begin(), all.begin() + 1500);
-    const Indices queries(all.begin() + 1000, all.end()); // including candidates, which are nearest
-                                                          // to themselves
-    EXPECT_EQ(osgSkin::nearestPoints(points, candidates, queries),
-              byTrying(points, candidates, queries));
-}
-
-INSTANTIATE_TEST_SUITE_P(Points, NearestPointsAmong,
-                         testing::Values(Case{"Anywhere", 0.0}, Case{"OnAGridWithManyTies", 0.25},
-                                         Case{"OnAGridThatIsNotExact", 0.1},
-                                         Case{"InOnePoint", 10.0}),
-                         [](const auto& each) { return each.param.name; });
-
-TEST(NearestPoints, OfEqualsHasTheLowestIndex) {
-    const std::vector<glm::dvec3> points = {
-        {0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-    EXPECT_EQ(osgSkin::nearestPoints(points, {4, 3, 2, 1}, {0}), Indices{1});
-    EXPECT_EQ(osgSkin::nearestPoints(points, {4, 2, 3}, {0, 1}), (Indices{2, 3}));
-}
-
-TEST(NearestPoints, OfOneCandidateIsThatOne) {
-    EXPECT_EQ(osgSkin::nearestPoints({{0, 0, 0}, {5, 0, 0}}, {1}, {0, 1}), (Indices{1, 1}));
-    EXPECT_EQ(osgSkin::nearestPoints({{0, 0, 0}, {5, 0, 0}}, {1}, {}), Indices{});
-}
-
-/// Half a box's side and the thickness of its walls, in cubes.
-constexpr int kHalf = 12, kWall = 2;
-
-/// The number of cubes of a hollow box with a square hole in its top, after filling pockets.
-std::size_t filled(int hole) {
-    const SkinMesh box = shapes::voxelSurface(
-        [hole](int x, int y, int z) {
-            const int most =
-                std::max({std::abs(2 * x + 1), std::abs(2 * y + 1), std::abs(2 * z + 1)});
-            const bool isWall = most < 2 * kHalf && most > 2 * (kHalf - kWall);
-            const int low = -(hole / 2);
-            const bool isHole =
-                y >= kHalf - kWall && x >= low && x < low + hole && z >= low && z < low + hole;
-            return isWall && !isHole;
-        },
-        kHalf + 1, 1.0);
-    fit::ClosedShell shell;
-    const std::vector<std::uint32_t> triangles = box.triangles();
-    for (std::size_t t = 0; t < triangles.size(); t += 3)
-        shell.push_back({box.positions[triangles[t]], box.positions[triangles[t + 1]],
-                         box.positions[triangles[t + 2]]});
-    fit::SolidGrid grid(glm::dvec3(-kHalf), glm::dvec3(kHalf), 2 * kHalf);
-    grid.add(shell);
-    grid.fillPockets();
-    return grid.count();
-}
-
-} // namespace
-
-TEST(SolidGrid, FillsWhatIsEnclosedButForGaps) {
-    constexpr auto cube = [](std::size_t half) { return 8 * half * half * half; };
-    constexpr std::size_t kBox = cube(kHalf), kCavity = cube(kHalf - kWall);
-    for (const int hole : {0, 1, 2, 4, 6}) { // except corners, which are far from everything
-        EXPECT_GE(filled(hole), kBox - kCavity / 5) << hole;
-        EXPECT_LE(filled(hole), kBox) << hole;
-    }
-    for (const int hole : {7, 10}) EXPECT_LE(filled(hole), kBox - kCavity) << hole;
 }

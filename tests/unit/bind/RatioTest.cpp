@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The ratios' gradients, which determine the normals of the deformed surface.
 #include "PeakMemory.h"
 #include "Ratios.h"
 #include "Shapes.h"
-#include "mesh/SkinSmoother.h"
 
-#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 
-#include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <random>
 #include <string>
 
 using namespace osgSkin;
@@ -59,7 +48,7 @@ TEST(Ratios, RiseFromZeroToOneOverTheJoint) {
     }
 }
 
-TEST(Ratios, DoNotDependOnTheUnitOrThePlace) {
+TEST(Ratios, DoNotDependOnUnitsOrPosition) {
     const SkinMesh mesh = shapes::cylinder();
     RestSkeleton skeleton = shapes::chainAlongY({1.1, 4.1}, 7.0);
     const Binding near = bind(mesh, skeleton);
@@ -98,7 +87,7 @@ TEST(Ratios, CutOffStiffensTheLimb) {
     EXPECT_EQ(ringBend(mesh, bind(mesh, skeleton, much), 1, 5.0), 1.0f);
 }
 
-TEST(Ratios, AuthorsBoundariesAreKept) {
+TEST(Ratios, GivenBoundariesAreUsed) {
     const SkinMesh mesh = shapes::cylinder();
     BindOptions options;
     options.joints["joint1"].bendUpper = -0.5; // the bone is 3 long: from 2.6 to 5.6
@@ -112,7 +101,7 @@ TEST(Ratios, AuthorsBoundariesAreKept) {
     EXPECT_EQ(ringBend(mesh, binding, 1, 6.0), 1.0f);
 }
 
-TEST(Ratios, OneBoundaryOfTheAuthorsPlacesTheOther) {
+TEST(Ratios, OneGivenBoundaryPlacesTheOther) {
     // The boundary that the author omits is as far behind his own as it would be behind the joint,
     // or at its default.
     const SkinMesh mesh = shapes::cylinder();
@@ -128,7 +117,7 @@ TEST(Ratios, OneBoundaryOfTheAuthorsPlacesTheOther) {
     }
 }
 
-TEST(Ratios, SkippedJointTurnsWhatItsChildTurns) {
+TEST(Ratios, SkippedJointMovesItsChildsSkin) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1.1, 3.1, 5.1}, 7.0);
     BindOptions options;
@@ -145,7 +134,7 @@ TEST(Ratios, SkippedJointTurnsWhatItsChildTurns) {
     EXPECT_TRUE(differs);
 }
 
-TEST(Ratios, JointOfNoLengthTurnsWhatItsChildrenTurn) {
+TEST(Ratios, ZeroLengthJointMovesItsChildrensSkin) {
     const SkinMesh mesh = shapes::hangingArms();
     RestSkeleton skeleton;
     shapes::addJoint(skeleton, "chest", "", {0, 1, 0});
@@ -202,7 +191,7 @@ TEST(Ratios, StayContinuousWhereManyJointsMeet) {
     EXPECT_LT(steepest, 0.3f); // rounding only the surplus joints would make steps of up to 0.5
 }
 
-TEST(Ratios, AreTheSameEachTime) {
+TEST(Ratios, AreDeterministic) {
     const SkinMesh mesh = shapes::hangingArms();
     const Binding a = bind(mesh, shapes::hangingArmsSkeleton());
     const Binding b = bind(mesh, shapes::hangingArmsSkeleton());
@@ -215,7 +204,7 @@ TEST(Ratios, AreTheSameEachTime) {
 }
 
 /// A ratio for every joint at every vertex would take 480 MB.
-TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
+TEST(Ratios, AreStoredSparsely) {
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
     while (skeleton.joints.size() < 6000) {
@@ -236,7 +225,7 @@ TEST(Ratios, TakeMemoryWhereTheyAreNotZero) {
 
 /// A vertex of a chain's last joint has ratios for all joints, one of its first joint only for that
 /// one.
-TEST(Ratios, AreAsManyAsJointsAboveVertices) {
+TEST(Ratios, MaxInfluencesIsEnforced) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1.0, 4.0, 6.0}, 7.0);
     BindOptions options;
@@ -259,7 +248,7 @@ TEST(Ratios, AreAsManyAsJointsAboveVertices) {
 
 /// Each vertex has every joint of a long chain above it: the binding itself takes 36 bytes for
 /// each.
-TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
+TEST(Ratios, LongChainNeedsLittleTemporaryMemory) {
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0}, 1.0);
     for (int j = 1; j < 700; ++j)
@@ -277,264 +266,3 @@ TEST(Ratios, OfALongChainTakeLittleMoreThanTheBinding) {
     static_cast<void>(before);
 #endif
 }
-
-namespace {
-
-/// Index of a vertex's influence by a joint, or the end index.
-std::uint32_t find(const Binding& binding, std::uint32_t vertex, std::uint32_t joint) {
-    std::uint32_t i = binding.firstInfluence[vertex];
-    while (i < binding.firstInfluence[vertex + 1] && binding.influences[i].joint != joint) ++i;
-    return i;
-}
-
-/// Area-weighted normals.
-std::vector<glm::vec3> normalsOf(const std::vector<glm::vec3>& points,
-                                 const std::vector<std::uint32_t>& corners) {
-    std::vector<glm::vec3> normals(points.size(), glm::vec3(0.0f));
-    for (std::size_t t = 0; t < corners.size(); t += 3) {
-        const glm::vec3& a = points[corners[t]];
-        const glm::vec3 area = glm::cross(points[corners[t + 1]] - a, points[corners[t + 2]] - a);
-        for (std::size_t k = 0; k < 3; ++k) normals[corners[t + k]] += area;
-    }
-    for (glm::vec3& normal : normals) normal = glm::normalize(normal);
-    return normals;
-}
-
-BindOptions withNormals() {
-    BindOptions options;
-    options.surfaceNormals = true;
-    return options;
-}
-
-struct NormalError {
-    double mean = 0.0, percentile95 = 0.0; ///< degrees
-};
-
-/// For a cylinder along y that is bent at y = 4, within 2.5 of the bend.
-NormalError errorOf(const SkinMesh& mesh, const Binding& binding, double degrees) {
-    std::vector<std::uint32_t> source(mesh.positions.size());
-    std::iota(source.begin(), source.end(), 0u);
-    const std::vector<glm::vec3> rest(mesh.positions.begin(), mesh.positions.end());
-    const auto model = SkinModel::create(binding, rest, normalsOf(rest, mesh.triangles()), source);
-    const glm::dvec3& centre = binding.joints[1].centre;
-    std::vector<glm::dmat4> skinning(binding.joints.size(), glm::dmat4(1.0));
-    skinning[1] = glm::translate(glm::dmat4(1.0), centre);
-    skinning[1] = glm::rotate(skinning[1], glm::radians(degrees), glm::dvec3(1, 0, 0));
-    skinning[1] = glm::translate(skinning[1], -centre);
-    DeformOptions options;
-    options.normals = true;
-    const auto [posed, normals, tangents] = deform(*model, skinning, options);
-    const std::vector<glm::vec3> wanted = normalsOf(posed, mesh.triangles());
-    std::vector<double> errors;
-    for (std::size_t v = 0; v < rest.size(); ++v)
-        if (std::abs(rest[v].y - 4.0f) < 2.5f)
-            errors.push_back(
-                glm::degrees(std::acos(std::min(1.0, double(glm::dot(wanted[v], normals[v]))))));
-    std::sort(errors.begin(), errors.end());
-    const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
-    return {sum / double(errors.size()), errors[errors.size() * 95 / 100]};
-}
-
-} // namespace
-
-TEST(SurfaceNormals, OfABentLimbAreThoseOfItsTriangles) {
-    const SkinMesh mesh = shapes::cylinder(8.0, 32);
-    const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    for (const auto shapes : {BindOptions::Shapes::None, BindOptions::Shapes::Fast}) {
-        SCOPED_TRACE(shapes == BindOptions::Shapes::Fast ? "fast" : "none");
-        BindOptions options = withNormals();
-        options.shapes = shapes;
-        const Binding binding = bind(mesh, skeleton, options);
-        EXPECT_EQ(binding.correctives.hasNormals(), shapes == BindOptions::Shapes::Fast);
-        options.surfaceNormals = false;
-        const Binding turned = bind(mesh, skeleton, options);
-        for (const double degrees : {90.0, 120.0, 140.0}) {
-            SCOPED_TRACE(degrees);
-            const NormalError error = errorOf(mesh, binding, degrees);
-            EXPECT_LE(error.mean, 3.0);
-            EXPECT_LE(error.percentile95, 12.0);
-            EXPECT_GE(errorOf(mesh, turned, degrees).mean, 2.0 * error.mean);
-        }
-    }
-}
-
-TEST(RatioGradients, SayHowRatiosGrowAlongEdges) {
-    const SkinMesh mesh = shapes::cylinder();
-    const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    BindOptions options = withNormals();
-    options.shapes = BindOptions::Shapes::None; // shapes shorten gradients to open folds
-    const Binding binding = bind(mesh, skeleton, options);
-    ASSERT_EQ(binding.gradients.size(), binding.influences.size());
-    const std::vector<std::uint32_t> corners = mesh.triangles();
-    double worst = 0.0, steepest = 0.0;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-        const std::uint32_t a = corners[c], b = corners[c % 3 == 2 ? c - 2 : c + 1];
-        const std::uint32_t i = find(binding, a, 1), j = find(binding, b, 1);
-        if (i == binding.firstInfluence[a + 1] || j == binding.firstInfluence[b + 1]) continue;
-        if (!binding.influences[i].isPartial() || !binding.influences[j].isPartial()) continue;
-        const glm::vec3 way(mesh.positions[b] - mesh.positions[a]);
-        const float bend = binding.influences[j].bend - binding.influences[i].bend;
-        const float twist = binding.influences[j].twist - binding.influences[i].twist;
-        const RatioGradient &ga = binding.gradients[i], &gb = binding.gradients[j];
-        worst = std::max({worst, double(std::abs(bend - 0.5f * glm::dot(ga.bend + gb.bend, way))),
-                          double(std::abs(twist - 0.5f * glm::dot(ga.twist + gb.twist, way)))});
-        steepest = std::max(steepest, double(std::abs(bend)));
-    }
-    EXPECT_GE(steepest, 0.05); // otherwise there is nothing to compare
-    EXPECT_LE(worst, 0.2 * steepest);
-}
-
-TEST(RatioGradients, AreTheSameOnBothSidesOfASeam) {
-    SkinMesh mesh = shapes::cylinder();
-    const RestSkeleton skeleton = shapes::chainAlongY({0.0, 4.0}, 8.0);
-    const Binding whole = bind(mesh, skeleton, withNormals());
-    // Gives the first face's corners vertices of their own.
-    const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
-    std::vector<std::uint32_t> from;
-    std::size_t first = 0;
-    for (std::size_t face = 0; face < mesh.faceSizes.size() / 2; ++face)
-        first += mesh.faceSizes[face];
-    for (std::size_t k = first; k < first + mesh.faceSizes[mesh.faceSizes.size() / 2]; ++k) {
-        from.push_back(mesh.faceVertices[k]);
-        mesh.positions.push_back(mesh.positions[from.back()]);
-        mesh.faceVertices[k] = static_cast<std::uint32_t>(mesh.positions.size() - 1);
-    }
-    const Binding split = bind(mesh, skeleton, withNormals());
-    bool any = false;
-    for (std::uint32_t k = 0; k < from.size(); ++k) {
-        const std::uint32_t copy = vertices + k;
-        const std::uint32_t i = split.firstInfluence[copy], was = whole.firstInfluence[from[k]];
-        ASSERT_EQ(split.firstInfluence[copy + 1] - i, whole.firstInfluence[from[k] + 1] - was);
-        for (std::uint32_t n = 0; i + n < split.firstInfluence[copy + 1]; ++n) {
-            EXPECT_LE(glm::distance(split.gradients[i + n].bend, whole.gradients[was + n].bend),
-                      1e-5f);
-            any = any || glm::length(whole.gradients[was + n].bend) > 0.01f;
-        }
-    }
-    EXPECT_TRUE(any);
-}
-
-TEST(RatioGradients, AreLeftOutWhereNormalsOnlyTurn) {
-    BindOptions options;
-    options.surfaceNormals = false;
-    const Binding binding = bind(shapes::cylinder(), shapes::chainAlongY({0.0, 4.0}, 8.0), options);
-    EXPECT_TRUE(binding.gradients.empty());
-}
-
-namespace {
-
-constexpr double kLength = 10.0;
-
-/// Rings of triangles around y, radius 1, each vertex moved by up to `jitter` edge lengths.
-SkinMesh tube(int sides, double jitter) {
-    SkinMesh mesh;
-    const double edge = glm::two_pi<double>() / sides;
-    const int rings = static_cast<int>(std::lround(kLength / (edge * std::sqrt(0.75))));
-    std::mt19937 random(1);
-    const auto moved = [&] {
-        return jitter * (static_cast<double>(random()) / 2147483648.0 - 1.0);
-    };
-    const auto at = [&](int ring, int side) {
-        return static_cast<std::uint32_t>(ring * sides + (side + sides) % sides);
-    };
-    for (int r = 0; r <= rings; ++r)
-        for (int s = 0; s < sides; ++s) {
-            const double angle = (s + 0.5 * (r % 2) + moved()) * edge;
-            const double y = kLength * (r + (r % rings == 0 ? 0.0 : moved())) / rings;
-            mesh.positions.emplace_back(std::sin(angle), y, std::cos(angle));
-            if (r == rings) continue;
-            const int odd = r % 2;
-            for (const std::uint32_t v :
-                 {at(r, s), at(r, s + 1), at(r + 1, s + odd), // one up, one down
-                  at(r, s), at(r + 1, s + odd), at(r + 1, s + odd - 1)})
-                mesh.faceVertices.push_back(v);
-        }
-    mesh.faceSizes.assign(mesh.faceVertices.size() / 3, 3);
-    return mesh;
-}
-
-/// Five implicit Euler steps on a line of cells: the expected value of the tube's field at `y`.
-class Line {
-public:
-    Line(double border, double above, double below) {
-        std::vector<double> width(kCells), lower(kCells), upper(kCells);
-        const double cell = kLength / kCells;
-        for (std::size_t i = 0; i < kCells; ++i) {
-            const bool isAbove = (static_cast<double>(i) + 0.5) * cell < border;
-            width[i] = isAbove ? above : below;
-            _values[i] = isAbove ? 0.0 : 1.0;
-        }
-        const auto between = [&](std::size_t i) {
-            return 0.5 * (width[i] + width[i + 1]) / (5.0 * cell * cell);
-        };
-        for (int step = 0; step < 5; ++step) { // Thomas's algorithm
-            std::vector<double> c(kCells), d(kCells);
-            for (std::size_t i = 0; i < kCells; ++i) {
-                const double left = i > 0 ? between(i - 1) : 0.0;
-                const double right = i + 1 < kCells ? between(i) : 0.0;
-                const double pivot = 1.0 / width[i] + left + right + (i > 0 ? left * c[i - 1] : 0);
-                c[i] = -right / pivot;
-                d[i] = (_values[i] / width[i] + (i > 0 ? left * d[i - 1] : 0.0)) / pivot;
-            }
-            for (std::size_t i = kCells; i-- > 0;)
-                _values[i] = d[i] - (i + 1 < kCells ? c[i] * _values[i + 1] : 0.0);
-        }
-    }
-    double at(double y) const {
-        const double cell = std::clamp(y / kLength * kCells - 0.5, 0.0, kCells - 1.0);
-        const auto i = std::min(static_cast<std::size_t>(cell), kCells - 2);
-        const double t = cell - static_cast<double>(i);
-        return (1.0 - t) * _values[i] + t * _values[i + 1];
-    }
-
-private:
-    static constexpr std::size_t kCells = 4000;
-    std::vector<double> _values = std::vector<double>(kCells);
-};
-
-struct Tube {
-    const char* name;
-    int sides;
-    double jitter, above, below;
-};
-
-class Smoothed : public testing::TestWithParam<Tube> {
-protected:
-    double worst(double widest) const {
-        const Tube& t = GetParam();
-        const WeldedMesh mesh(tube(t.sides, t.jitter));
-        std::vector<double> field(mesh.vertexCount()), widths(mesh.vertexCount());
-        double lastAbove = 0.0, firstBelow = kLength; // the boundary is between them
-        for (std::size_t v = 0; v < field.size(); ++v) {
-            const double y = mesh.positions[v].y;
-            const bool isAbove = y < kLength / 2;
-            field[v] = isAbove ? 0.0 : 1.0;
-            widths[v] = isAbove ? t.above : t.below;
-            if (isAbove) lastAbove = std::max(lastAbove, y);
-            if (!isAbove) firstBelow = std::min(firstBelow, y);
-        }
-        SkinSmoother(mesh, widest).smooth(field, widths);
-        const Line line(0.5 * (lastAbove + firstBelow), t.above, t.below);
-        double worst = 0.0;
-        for (std::size_t v = 0; v < field.size(); ++v)
-            worst = std::max(worst, std::abs(field[v] - line.at(mesh.positions[v].y)));
-        return worst;
-    }
-};
-
-} // namespace
-
-TEST_P(Smoothed, IsHeatAlongTheTube) {
-    EXPECT_LT(worst(0.0), 0.01);
-}
-
-TEST_P(Smoothed, IsMuchTheSameOnCoarserSkins) {
-    EXPECT_LT(worst(1.0), 0.02);
-}
-
-INSTANTIATE_TEST_SUITE_P(SkinSmoother, Smoothed,
-                         testing::Values(Tube{"Even", 150, 0.0, 1.0, 1.0},
-                                         Tube{"Jittered", 150, 0.3, 1.0, 1.0},
-                                         Tube{"TwoWidths", 150, 0.3, 1.0, 0.6},
-                                         Tube{"TwiceCoarser", 300, 0.2, 1.0, 1.0}),
-                         [](const auto& test) { return test.param.name; });

@@ -172,4 +172,19 @@ osgSkin::SkinMesh moved(osgSkin::SkinMesh mesh, const glm::dvec3& by, double sca
     return mesh;
 }
 
+SkinMesh sheet(std::uint32_t side) {
+    SkinMesh mesh;
+    const double step = 2.0 / (side - 1);
+    for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x) {
+            mesh.positions.emplace_back(step * x - 1.0, step * y - 1.0, 0.0);
+            if (x == 0 || y == 0) continue;
+            const std::uint32_t v = y * side + x;
+            for (const std::uint32_t corner : {v - side - 1, v - side, v, v - side - 1, v, v - 1})
+                mesh.faceVertices.push_back(corner);
+        }
+    mesh.faceSizes.assign(mesh.faceVertices.size() / 3, 3);
+    return mesh;
+}
+
 } // namespace shapes

@@ -49,4 +49,7 @@ osgSkin::SkinMesh garment(const osgSkin::SkinMesh& body,
 
 osgSkin::SkinMesh moved(osgSkin::SkinMesh mesh, const glm::dvec3& by, double scale = 1.0);
 
+/// A square of triangles, two units wide, about the origin in the plane z = 0.
+osgSkin::SkinMesh sheet(std::uint32_t side);
+
 } // namespace shapes

@@ -7,7 +7,6 @@
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
-#include <osgSkinBind/RigidSplit>
 
 #include <gtest/gtest.h>
 
@@ -76,7 +75,7 @@ TEST(BindWeights, RegionIsTheHeaviestJoint) {
 }
 
 /// An entry for every joint at every vertex would take 400 MB.
-TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
+TEST(BindWeights, MemoryDoesNotGrowWithTheNumberOfJoints) {
     const SkinMesh mesh = shapes::cylinder(80.0);
     RestSkeleton skeleton = shapes::chainAlongY({1.0, 40.0}, 79.0);
     while (skeleton.joints.size() < 10000) {
@@ -100,7 +99,7 @@ TEST(BindWeights, TakeMemoryAsTheyAreManyNotAsJointsAre) {
     EXPECT_EQ(binding.regions.back(), 1u);
 }
 
-TEST(BindWeights, InfluencesAreLimited) {
+TEST(BindWeights, MaxInfluencesIsEnforced) {
     const PaintedCylinder input;
     BindOptions options;
     std::size_t above = 0;
@@ -111,7 +110,7 @@ TEST(BindWeights, InfluencesAreLimited) {
     EXPECT_THROW(bindWeights(input.mesh, input.skeleton, input.weights, options), Error);
 }
 
-TEST(BindWeights, ScaleOfTheWeightsDoesNotMatter) {
+TEST(BindWeights, WeightsAreNormalised) {
     PaintedCylinder input;
     const Binding before = input.bind();
     for (auto& vertex : input.weights)
@@ -140,7 +139,7 @@ TEST(BindWeights, CopiesOfAVertexMoveAlike) {
             }
 }
 
-TEST(BindWeights, UnpaintedSkinDoesAsTheNearestPainted) {
+TEST(BindWeights, UnpaintedSkinFollowsTheNearestPainted) {
     PaintedCylinder input;
     input.weights[20].clear();
     input.weights[21] = {{1, 0.0}};
@@ -150,7 +149,7 @@ TEST(BindWeights, UnpaintedSkinDoesAsTheNearestPainted) {
     EXPECT_NE(report.notes.front().find("2 vertices"), std::string::npos) << report.notes.front();
 }
 
-TEST(BindWeights, SevenJointsAtAVertexBecomeFour) {
+TEST(BindWeights, PartialInfluencesAreLimitedToFour) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1, 2, 3, 4, 5, 6, 6.5}, 7.0);
     VertexWeights weights;
@@ -209,7 +208,7 @@ class BindWeightsError : public testing::TestWithParam<BadWeights> {};
 
 } // namespace
 
-TEST_P(BindWeightsError, SaysWhatIsWrong) {
+TEST_P(BindWeightsError, NamesTheCause) {
     PaintedCylinder input;
     GetParam().spoil(input);
     try {
@@ -224,7 +223,7 @@ TEST_P(BindWeightsError, SaysWhatIsWrong) {
 INSTANTIATE_TEST_SUITE_P(Cases, BindWeightsError, testing::ValuesIn(kBad),
                          [](const auto& c) { return std::string(c.param.name); });
 
-TEST(BindWeights, RatiosOfABodyAgreeWithItsPaint) {
+TEST(BindWeights, RatiosOfABodyAgreeWithItsPaintedWeights) {
     const auto folder = shared::makehuman();
     const auto rig = folder / "rig" / "joints_cmu_mb_neutral.json";
     const auto paint = folder / "weights" / "body4k_weights_cmu_mb.json";
@@ -254,117 +253,4 @@ TEST(BindWeights, RatiosOfABodyAgreeWithItsPaint) {
     }
     EXPECT_LE(capped, report.cappedVertices);
     EXPECT_LT(static_cast<double>(capped), 0.08 * static_cast<double>(painted.size()));
-}
-
-namespace {
-
-std::vector<std::string> rigidOf(const std::vector<std::string>& chain) {
-    RestSkeleton skeleton;
-    for (std::size_t j = 0; j < chain.size(); ++j)
-        skeleton.joints.push_back({chain[j], static_cast<int>(j) - 1, {0, double(j), 0}, {}});
-    return automaticRigidJoints(skeleton);
-}
-
-using Names = std::vector<std::string>;
-
-RestSkeleton limb() {
-    RestSkeleton skeleton = shapes::chainAlongY({1.1, 5.1, 9.1, 10.6}, 11.8);
-    const char* names[] = {"Arm", "ForeArm", "Hand", "Finger"};
-    for (std::size_t j = 0; j < 4; ++j) skeleton.joints[j].name = names[j];
-    return skeleton;
-}
-
-BindOptions withRigidHand() {
-    BindOptions options;
-    options.rigid = Names{"Hand"};
-    return options;
-}
-
-} // namespace
-
-TEST(RigidNames, AreRecognised) {
-    for (const char* name :
-         {"Head", "head", "LeftHand", "mixamorig:LeftHand", "hand_l", "foot_r", "lHand", "RFoot",
-          "wrist.L", "Bip01 L Hand", "LeftAnkle", "righthand", "DEF-hand.L", "rig|Head"})
-        EXPECT_EQ(rigidOf({"Hips", name}), Names{name}) << name;
-}
-
-TEST(RigidNames, OthersAreNot) {
-    for (const char* name :
-         {"LeftHandIndex1", "HandThumb", "LeftForeArm", "HeadTop_End", "Forehead", "LeftToeBase",
-          "Neck1", "handle", "hand_ik_l", "LeftFootToe", ""})
-        EXPECT_EQ(rigidOf({"Hips", name}), Names{}) << name;
-}
-
-TEST(RigidNames, OnlyTheTopmostCounts) {
-    EXPECT_EQ(rigidOf({"Hips", "LeftWrist", "LeftHand", "Finger"}), Names{"LeftWrist"});
-    EXPECT_EQ(rigidOf({"Head", "Jaw"}), Names{}) << "the root cannot be a rigid part";
-}
-
-TEST(RigidPart, StartsOneRadiusBehindTheJoint) {
-    const SkinMesh mesh = shapes::cylinder(12.0);
-    const Binding binding = bind(mesh, limb(), withRigidHand());
-    expectSound(binding);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        EXPECT_EQ(ratiosOf(binding, v, 3).bend, 0.0f) << "a joint below the rigid one moves skin";
-        EXPECT_NE(binding.regions[v], 3u);
-        if (mesh.positions[v].y > 10.4) {
-            EXPECT_EQ(ratiosOf(binding, v, 2).bend, 1.0f) << mesh.positions[v].y;
-            EXPECT_EQ(ratiosOf(binding, v, 2).twist, 1.0f) << mesh.positions[v].y;
-        }
-    }
-}
-
-TEST(RigidPart, NoneLeavesEveryJointItsRegion) {
-    BindOptions options;
-    options.rigid.emplace();
-    BindReport report;
-    const Binding binding = bind(shapes::cylinder(12.0), limb(), options, &report);
-    expectSound(binding);
-    EXPECT_EQ(report.regions.size(), 4u);
-    float most = 0.0f;
-    for (std::size_t v = 0; v < binding.vertexCount(); ++v)
-        most = std::max(most, ratiosOf(binding, v, 3).bend);
-    EXPECT_GT(most, 0.9f);
-}
-
-TEST(RigidSplit, TakesFacesThatMoveAlike) {
-    const SkinMesh mesh = shapes::cylinder(12.0);
-    const Binding binding = bind(mesh, limb(), withRigidHand());
-    const RigidSplit split = splitRigid(mesh, binding, {"Hand"});
-    ASSERT_EQ(split.faceJoint.size(), mesh.faceSizes.size());
-    std::size_t corner = 0, rigid = 0;
-    for (std::size_t f = 0; f < mesh.faceSizes.size(); ++f) {
-        bool alike = true;
-        for (std::uint32_t k = 0; k < mesh.faceSizes[f]; ++k, ++corner)
-            for (std::size_t j = 0; j < 4; ++j) {
-                const Influence i = ratiosOf(binding, mesh.faceVertices[corner], j);
-                const float expected = j < 3 ? 1.0f : 0.0f;
-                alike = alike && i.bend == expected && i.twist == expected;
-            }
-        EXPECT_EQ(split.faceJoint[f], alike ? 2u : RigidSplit::kSkin) << "face " << f;
-        if (alike) ++rigid;
-    }
-    EXPECT_GE(rigid, 6u * 16u);
-    EXPECT_LT(rigid, 12u * 16u);
-}
-
-TEST(RigidSplit, WithoutNamesLeavesAllFacesToTheSkin) {
-    const SkinMesh mesh = shapes::cylinder(12.0);
-    for (const std::uint32_t joint :
-         splitRigid(mesh, bind(mesh, limb(), withRigidHand()), {}).faceJoint)
-        EXPECT_EQ(joint, RigidSplit::kSkin);
-}
-
-TEST(RigidSplit, RefusesWhatDoesNotFit) {
-    const SkinMesh mesh = shapes::cylinder(12.0);
-    const Binding binding = bind(mesh, limb(), withRigidHand());
-    EXPECT_THROW(splitRigid(mesh, binding, {"Foot"}), Error);
-    EXPECT_THROW(splitRigid(shapes::cylinder(2.0), binding, {"Hand"}), Error);
-    Binding empty = binding;
-    std::fill(empty.firstInfluence.begin(), empty.firstInfluence.end(), 0u);
-    EXPECT_THROW(splitRigid(mesh, empty, {"Hand"}), Error);
-    SkinMesh broken = mesh;
-    broken.faceVertices.back() = 1000000;
-    EXPECT_THROW(splitRigid(broken, binding, {"Hand"}), Error);
 }

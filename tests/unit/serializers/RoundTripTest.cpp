@@ -66,7 +66,7 @@ TEST_P(RoundTrip, SkinFields) {
     EXPECT_EQ(is[0]->getDescriptions(), was[0]->getDescriptions());
 }
 
-TEST_P(RoundTrip, StateSetsStayWhereTheyWere) {
+TEST_P(RoundTrip, StateSets) {
     const osg::StateSet* state = is[0]->getStateSet();
     ASSERT_NE(state, nullptr);
     EXPECT_EQ(state, is[0]->getRestGeometry()->getStateSet());
@@ -90,7 +90,7 @@ TEST_P(RoundTrip, RestGeometry) {
     EXPECT_EQ(b.getPrimitiveSet(0)->getNumIndices(), a.getPrimitiveSet(0)->getNumIndices());
 }
 
-TEST_P(RoundTrip, CopiesShareTheModelAgain) {
+TEST_P(RoundTrip, CopiesShareTheModel) {
     ASSERT_NE(is[0]->getModel(), nullptr);
     EXPECT_EQ(is[0]->getModel(), is[1]->getModel());
     EXPECT_EQ(is[0]->getRestGeometry(), is[1]->getRestGeometry());
@@ -102,7 +102,7 @@ TEST_P(RoundTrip, SavedPose) {
     for (std::size_t v = 0; v < a.size(); ++v) ASSERT_LE((a[v] - b[v]).length(), 1e-5f);
 }
 
-TEST_P(RoundTrip, DeformedVerticesToTheBit) {
+TEST_P(RoundTrip, DeformedVerticesAreBitIdentical) {
     for (const auto& pose : test::somePoses(*was[0]))
         EXPECT_EQ(test::posed(*is[0], pose), test::posed(*was[0], pose));
 }
@@ -176,7 +176,7 @@ TEST_P(RoundTrip, RigidPart) {
     EXPECT_EQ(rigidOf(*after)->getNumChildren(), 1u);
 }
 
-TEST_P(RoundTrip, PlaysByItself) {
+TEST_P(RoundTrip, PlaysAutomatically) {
     ASSERT_NE(dynamic_cast<osgSkin::AutoPlayManager*>(after->getUpdateCallback()), nullptr);
     std::vector<osg::Vec3> first;
     for (const double time : {0.0, 0.25, 0.5, 0.75}) {

@@ -5,7 +5,9 @@
 
 #include <osgSkin/DeformableSkin>
 
+#include <gtest/gtest.h>
 #include <osg/Group>
+#include <osg/Notify>
 #include <osg/ref_ptr>
 
 #include <glm/mat4x4.hpp>
@@ -37,5 +39,13 @@ std::vector<std::vector<glm::dmat4>> somePoses(const osgSkin::DeformableSkin& sk
 
 /// The vertices, then the normals, of the skin in this pose.
 std::vector<osg::Vec3> posed(osgSkin::DeformableSkin& skin, const std::vector<glm::dmat4>& pose);
+
+/// Besides our own messages, OSG prints its reading of each word of a bad file.
+template <typename Case>
+class Quietly : public testing::TestWithParam<Case> {
+protected:
+    void SetUp() override { osg::setNotifyLevel(osg::ALWAYS); }
+    void TearDown() override { osg::setNotifyLevel(osg::NOTICE); }
+};
 
 } // namespace test

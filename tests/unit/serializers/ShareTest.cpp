@@ -94,7 +94,7 @@ TEST_P(Shared, LoadsOfOneFileShareModelArraysAndKeys) {
               &keysOf<QuatSphericalLinearChannel>(*clipsOf(*second)[0], 0));
 }
 
-TEST_P(Shared, AChangedFileGivesAnotherModel) {
+TEST_P(Shared, ChangedFileHasItsOwnModel) {
     const std::string file = test::save(*test::makeScene(), GetParam());
     test::Tube changed;
     changed.positions[3].x += 0.25f;
@@ -106,7 +106,7 @@ TEST_P(Shared, AChangedFileGivesAnotherModel) {
     EXPECT_NE(a[0]->getRestGeometry()->getVertexArray(), b[0]->getRestGeometry()->getVertexArray());
 }
 
-TEST_P(Shared, NothingIsKeptAlive) {
+TEST_P(Shared, ModelIsFreedWithItsScene) {
     const std::string file = test::save(*test::makeScene(), GetParam());
     osg::ref_ptr<osg::Node> scene = load(file);
     const osg::observer_ptr<osgSkin::SkinModel> model =
@@ -115,7 +115,7 @@ TEST_P(Shared, NothingIsKeptAlive) {
     EXPECT_FALSE(model.valid());
 }
 
-TEST_P(Shared, ThreadsThatLoadAtOnceShare) {
+TEST_P(Shared, ConcurrentLoadsShareTheModel) {
     const std::string file = test::save(*sceneWith({makeClip()}), GetParam());
     std::vector<osg::ref_ptr<osg::Node>> scenes(8);
     std::vector<std::thread> threads;
@@ -127,7 +127,7 @@ TEST_P(Shared, ThreadsThatLoadAtOnceShare) {
     }
 }
 
-TEST_P(Shared, ClipsComeBackExactly) {
+TEST_P(Shared, ClipsRoundTrip) {
     const osg::ref_ptr<osgAnimation::Animation> was = makeClip();
     const osg::ref_ptr<osgAnimation::Animation> steps = new osgAnimation::Animation; // of no block
     steps->setName("steps");
@@ -169,7 +169,7 @@ TEST_P(Shared, ClipsComeBackExactly) {
 INSTANTIATE_TEST_SUITE_P(Formats, Shared, testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& format) { return std::string(format.param); });
 
-TEST(ShareEqualData, EditedDataIsNotGivenToLaterLoads) {
+TEST(ShareEqualData, EditsDoNotReachLaterLoads) {
     const std::string file = test::save(*sceneWith({makeClip()}), "osgb");
     const osg::ref_ptr<osg::Node> first = test::load(file, "osgb");
     auto& uv = static_cast<osg::Vec2Array&>(
@@ -204,7 +204,7 @@ TEST(ShareEqualData, RigidPartsShareTheirArrays) {
     EXPECT_EQ(geometryOf(*first)->getPrimitiveSet(0), geometryOf(*second)->getPrimitiveSet(0));
 }
 
-TEST(ShareEqualData, ModelsWithANameStayTheirOwn) {
+TEST(ShareEqualData, NamedModelsAreNotShared) {
     const test::Tube tube;
     const auto a = tube.model(), b = tube.model(), c = tube.model();
     const_cast<osgSkin::SkinModel&>(*c).setName("own");
