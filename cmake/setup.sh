@@ -57,17 +57,17 @@ osgskin_build() {
 }
 
 # Shows Ninja's lines "at 35% after 72.5 s: ..." as one that changes; a new one for every 10 % if that
-# is not on a terminal.
+# is not on a terminal. Not by awk, which reads a pipe in large blocks.
 osgskin_progress() {
-  local terminal=0
-  [ ! -t 1 ] || terminal=1
-  awk -v terminal="$terminal" '
-    /^at +[0-9]+% after / {
-      percent = $2 + 0
-      if (percent == shown || (!terminal && percent < shown + 10 && percent < 100)) next
-      shown = percent
-      printf terminal ? "\r  %3d %%, %.1f minutes" : "  %3d %%, %.1f minutes\n", percent, $4 / 60
-      fflush()
-    }
-    END { if (terminal && shown) print "" }'
+  local line percent seconds shown=0 format='  %3d %%, %d.%d minutes\n' step=10
+  [ ! -t 1 ] || { format='\r  %3d %%, %d.%d minutes' step=1; }
+  while IFS= read -r line; do
+    [[ $line =~ ^at\ +([0-9]+)%\ after\ ([0-9]+) ]] || continue
+    percent=${BASH_REMATCH[1]} seconds=${BASH_REMATCH[2]}
+    ((percent >= shown + step || (percent == 100 && shown < 100))) || continue
+    shown=$percent
+    # shellcheck disable=SC2059 # a format
+    printf "$format" "$percent" $((seconds / 60)) $((seconds % 60 / 6))
+  done
+  [ ! -t 1 ] || [ "$shown" -eq 0 ] || echo
 }
