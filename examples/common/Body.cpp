@@ -67,19 +67,23 @@ compare::SkinWeights painted(const std::string& file, const osgSkin::Character& 
     return weights;
 }
 
-osgSkin::Character load(const std::string& file, osgSkin::LoadOptions options) {
-    example::ProgressLine line(file);
-    options.progress = line.progress();
-    osgSkin::Character character = osgSkin::loadCharacter(file, options);
-    if (!character.hasBody())
-        throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
-    return character;
+osgSkin::Character requireBody(osgSkin::Character character) {
+    if (character.hasBody()) return character;
+    throw osgSkin::Error(character.file +
+                         ": a saved character or several; the mesh is not known. " +
+                         "Load the .skin file or the model that it was made of");
 }
 
 } // namespace
 
-Body::Body(const std::string& file, const std::string& weights, osgSkin::LoadOptions options)
-    : character(load(file, std::move(options))), triangles(character.body.mesh.triangles()) {
+osgSkin::Character load(const std::string& file, osgSkin::LoadOptions options) {
+    example::ProgressLine line(file);
+    options.progress = line.progress();
+    return osgSkin::loadCharacter(file, options);
+}
+
+Body::Body(osgSkin::Character loaded, const std::string& weights)
+    : character(requireBody(std::move(loaded))), triangles(character.body.mesh.triangles()) {
     std::vector<std::uint32_t> source(rest().size());
     std::iota(source.begin(), source.end(), 0u);
     const auto modelOf = [&](const osgSkin::Binding& binding) {
@@ -95,7 +99,8 @@ Body::Body(const std::string& file, const std::string& weights, osgSkin::LoadOpt
 }
 
 std::size_t Body::find(const std::string& name) const {
-    const int index = character.rest.find(name);
+    const int named = character.rest.find(name);
+    const int index = named < 0 ? character.roles.joint(name) : named;
     if (index < 0)
         throw osgSkin::Error(character.file + ": no joint is called \"" + name + '"' +
                              osgSkin::expectedNames(name, character.rest.byName()));

@@ -22,13 +22,17 @@ enum class Method {
     Ours
 };
 
+/// Loads a character and shows the progress on stderr.
+/// \throw osgSkin::Error with the file and the reason
+osgSkin::Character load(const std::string& file, osgSkin::LoadOptions options);
+
 /// A character and the methods that can deform it. Points are in rest space.
 class Body {
 public:
-    /// \param file a character's file
+    /// \param loaded with a body, see osgSkin::Character::hasBody()
     /// \param weights file of painted weights (JSON); if empty, they are computed from the ratios
-    /// \param options of the load; the constructor replaces the progress and shows it on stderr
-    Body(const std::string& file, const std::string& weights, osgSkin::LoadOptions options = {});
+    /// \throw osgSkin::Error with the file and the reason
+    Body(osgSkin::Character loaded, const std::string& weights);
 
     osgSkin::Character character;
     std::vector<std::uint32_t> triangles;
@@ -38,7 +42,9 @@ public:
     const osgSkin::BoundJoint& joint(std::size_t index) const {
         return character.binding.joints[index];
     }
-    /// \throw std::runtime_error if the character has no such joint
+
+    /// \param name of a joint, or else its role, such as "LeftLowerArm"
+    /// \throw osgSkin::Error if the character has no such joint
     std::size_t find(const std::string& name) const;
 
     /// Skinning matrices that rotate a joint and its subtree by `degrees`.

@@ -15,6 +15,10 @@ class Option;
 
 namespace example {
 
+/// What every program takes as its CHARACTER.
+constexpr char kCharacterHelp[] =
+    "a .skin file, a rigged model (model.glb, model.fbx.skin, ...) or a saved character (.osgb)";
+
 /// Bad usage: a program prints the message and exits with 2.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -141,7 +141,9 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     Arguments arguments;
     std::string frames;
     std::vector<std::string> tensed, morphs;
-    line.add("CHARACTER", arguments.character, "a .skin file, or a rigged model");
+    line.add("CHARACTER", arguments.character, example::kCharacterHelp);
+    line.add("--list", arguments.list,
+             "list joints with their roles, clips, morph targets and muscles; write nothing");
     line.add("--motion", arguments.motion, "a motion's name; the first one by default");
     line.add("--frames", frames, "A, A:B or A:B:STEP; all by default");
     line.add("--rate", arguments.rate, "frames a second of a rigged model's clips; 30")
@@ -166,7 +168,7 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     checkPattern(arguments.out);
     if (rest.isGiven()) settleRest(arguments);
     if (arguments.character.empty())
-        throw UsageError{"expected a CHARACTER, a .skin file or a rigged model"};
+        throw UsageError{std::string("expected a CHARACTER: ") + example::kCharacterHelp};
     const std::string kind = extensionOf(arguments.rest);
     if (kind == "ply" || kind == "glb" || kind == "gltf" || kind == "pc2" || kind == "mtl")
         throw UsageError{"--rest: expected a file whose name ends in .obj, found \"" +

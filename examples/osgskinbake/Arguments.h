@@ -28,6 +28,7 @@ struct Arguments {
     std::string binding; ///< JSON file for the binding; empty for none
     std::string pose;    ///< JSON file for the poses; empty for none
     std::string formats; ///< value of the option `formats`; empty if not given
+    bool list = false;   ///< only list joints, clips, morph targets and muscles
     bool quiet = false;
 };
 

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -349,7 +350,6 @@ void reportOtherThings(const Character& character) {
                   << (others.count == 1 ? "\"\n" : "\", ...\n") << std::flush;
 }
 
-/// Reads a `.skin` file or a rigged model, with or without `.skin` appended to its name.
 Character load(const Arguments& arguments) {
     const std::string& file = arguments.character;
     example::ProgressLine line(file, arguments.quiet);
@@ -358,9 +358,31 @@ Character load(const Arguments& arguments) {
     if (!arguments.formats.empty())
         options.readOptions = new osgDB::Options("formats=" + arguments.formats);
     Character character = osgSkin::loadCharacter(file, options);
-    if (!character.hasBody())
-        throw osgSkin::Error(file + ": expected a .skin file, or a rigged model that Assimp reads");
+    if (!character.hasBody() && !arguments.list)
+        throw osgSkin::Error(file + ": a saved character or several; the mesh is not known. Bake "
+                                    "the .skin file or the model that it was made of");
     return character;
+}
+
+/// Prints what a character can be told to do: its joints and their roles, its clips, morph targets
+/// and muscles.
+void list(const Character& character) {
+    std::cout << "joints: role, name\n";
+    for (std::size_t j = 0; j < character.rest.joints.size(); ++j) {
+        const std::string& role = character.roles.roles[j];
+        std::cout << "  " << std::left << std::setw(18) << (role.empty() ? "-" : role) << ' '
+                  << osgSkin::onOneLine(character.rest.joints[j].name) << '\n';
+    }
+    std::cout << "clips: seconds, name\n" << std::fixed << std::setprecision(2);
+    for (const osgSkin::CharacterMotion& motion : character.motions)
+        std::cout << "  " << std::setw(18) << motion.duration() << ' '
+                  << osgSkin::onOneLine(motion.name()) << '\n';
+    std::cout << "morph targets\n";
+    for (const std::string& name : character.morphs())
+        std::cout << "  " << osgSkin::onOneLine(name) << '\n';
+    std::cout << "muscles\n";
+    for (const std::string& name : character.binding.correctives.inputs)
+        std::cout << "  " << osgSkin::onOneLine(name) << '\n';
 }
 
 void tense(Character& character, const Arguments& arguments) {
@@ -385,6 +407,10 @@ UsageError nothingToWrite(Character& character, const Arguments& arguments) {
 
 int run(const Arguments& arguments) {
     Character character = load(arguments);
+    if (arguments.list) {
+        list(character);
+        return 0;
+    }
     if (arguments.out.empty() && arguments.rest.empty() && arguments.binding.empty() &&
         arguments.pose.empty())
         throw nothingToWrite(character, arguments);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "CardCrowd.h"
+#include "Crowd.h"
 
 #include <osgSkinGpu/CrowdCharacter>
-#include <osgSkinImport/ReadScene>
 
 #include <osg/FrameStamp>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
-#include <osgDB/Registry>
 
 #include <algorithm>
 #include <chrono>
@@ -53,8 +52,7 @@ CardCrowd::CardCrowd(const std::vector<std::string>& files, std::size_t count)
     std::vector<double> seconds(files.size());
     float width = 0.0f;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        const osg::ref_ptr<osg::Node> scene =
-            osgSkin::readScene(files[i], osgDB::Registry::instance()->getOptions());
+        const osg::ref_ptr<osg::Node> scene = loadScene(files[i]);
         _characters.push_back(osgSkin::CrowdCharacter::create(*scene));
         seconds[i] = _characters.back()->loopSeconds(0);
         const osg::BoundingBox& box = _characters.back()->bounds();

@@ -2,20 +2,21 @@
 #include "Crowd.h"
 
 #include "ProgressLine.h"
+#include "WindowOptions.h"
 
 #include <osgSkin/ParallelDeformCallback>
-#include <osgSkinCharacter/ProgressOption>
-#include <osgSkinImport/ReadScene>
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinCharacter/OptionString>
 
 #include <osg/MatrixTransform>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
 #include <osg/Timer>
+#include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace {
 
@@ -29,24 +30,30 @@ public:
     std::size_t vertices = 0;
 };
 
-/// Reads a scene by osgDB, which also supports saved characters.
-osg::ref_ptr<osg::Node> readScene(const std::string& file) {
-    example::ProgressLine line(file);
-    const osgDB::Options* shared = osgDB::Registry::instance()->getOptions();
-    const osg::ref_ptr<osgDB::Options> options =
-        shared ? shared->cloneOptions() : new osgDB::Options;
-    osgSkin::setProgress(*options, line.progress());
-    return osgSkin::readScene(file, options);
+/// Whether a file's characters are bound already.
+bool isSaved(const std::string& file) {
+    const std::string extension = osgDB::getLowerCaseFileExtension(file);
+    return extension == "osgb" || extension == "osgt" || extension == "osgx";
 }
 
 } // namespace
 
+osg::ref_ptr<osg::Node> loadScene(const std::string& file) {
+    osgSkin::LoadOptions options =
+        osgSkin::toLoadOptions(osgDB::Registry::instance()->getOptions());
+    if (!example::hasOsgOptionString() && !isSaved(file)) {
+        options.shapes = osgSkin::BindOptions::Shapes::None;
+        options.surfaceNormals = false;
+    }
+    example::ProgressLine line(file);
+    options.progress = line.progress();
+    return osgSkin::loadCharacter(file, options).root;
+}
+
 CrowdCharacter::CrowdCharacter(const std::string& file) {
-    const osg::ref_ptr<osg::Node> scene = readScene(file);
+    const osg::ref_ptr<osg::Node> scene = loadScene(file);
     CountVertices count;
     scene->accept(count);
-    if (count.vertices == 0)
-        throw std::runtime_error(file + " has no deformable skin; expected a character");
     character = osgSkin::ClipCharacter::create(*scene);
     // A character without a clip keeps its pose.
     osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;

@@ -14,10 +14,15 @@
 #include <string>
 #include <vector>
 
+/// Loads a character with the options of `-O`; without, as fits a crowd's distance: without shapes
+/// and with rotated normals.
+/// \throw osgSkin::Error with the file and the reason
+osg::ref_ptr<osg::Node> loadScene(const std::string& file);
+
 /// A character from a file. Its first clip is sampled 60 times per second and baked, so a member of
 /// the crowd copies poses and needs no animation manager and no bones.
 struct CrowdCharacter {
-    /// \throw std::runtime_error if the file cannot be read or has no skin
+    /// \throw osgSkin::Error if the file cannot be read or has no skin
     explicit CrowdCharacter(const std::string& file);
 
     osg::ref_ptr<osgSkin::ClipCharacter> character;

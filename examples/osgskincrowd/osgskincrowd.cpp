@@ -9,7 +9,6 @@
 #include "Snapshots.h"
 #include "WindowOptions.h"
 
-#include <osgDB/Registry>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
@@ -98,7 +97,7 @@ int main(int argc, char** argv) {
     unsigned int threads = 0;
     unsigned int timed = 0;
     bool gpu = false;
-    line.add("CHARACTER", files, ".skin or any file with a deformable skin; they take turns");
+    line.add("CHARACTER", files, std::string(example::kCharacterHelp) + "; several take turns");
     line.add("--count", count, "how many characters").range(1, 100000);
     line.add("--threads", threads, "most threads that pose and deform; 0: all processors");
     const auto onCard = line.add(
@@ -118,9 +117,6 @@ int main(int argc, char** argv) {
         osgViewer::Viewer viewer(words);
         line.parse(argc, argv);
         const Pictures pictures{out, example::FrameRange::parse(frames)};
-        if (!example::hasOsgOptionString())
-            osgDB::Registry::instance()->setOptions(
-                new osgDB::Options("shapes=none normals=rotated"));
         if (gpu) return runOnCard(files, count, pictures, viewer, window);
         std::vector<CrowdCharacter> characters;
         characters.reserve(files.size());

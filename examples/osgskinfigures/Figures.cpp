@@ -123,8 +123,9 @@ const osg::Vec4 kSmooth(0.45f, 0.75f, 0.95f, 1.0f);
 class Arm {
 public:
     explicit Arm(const Body& body)
-        : _body(body), _shoulder(body.find("LeftArm")), elbow(body.find("LeftForeArm")),
-          hand(body.find("LeftHand")), _centre(body.joint(elbow).centre),
+        : _body(body), _shoulder(body.character.jointByRole("LeftUpperArm")),
+          elbow(body.character.jointByRole("LeftLowerArm")),
+          hand(body.character.jointByRole("LeftHand")), _centre(body.joint(elbow).centre),
           _above(glm::normalize(_centre - body.joint(_shoulder).centre)) {
         const glm::dvec3 bone = body.joint(hand).centre - _centre;
         _length = glm::length(bone);
@@ -249,7 +250,7 @@ constexpr int kCompareSize = 400;
 /// A close-up of a single rotated joint. Directions are in the scene's frame: Z up, facing -Y.
 struct Shot {
     const char* name;
-    const char* joint;
+    const char* joint; ///< its role
     double degrees;
     glm::dvec3 axis;  ///< if zero, perpendicular to the bone and the one above; see axisOf()
     bool twist;       ///< about the bone above
@@ -259,11 +260,11 @@ struct Shot {
 };
 
 const Shot kShots[] = {
-    {"shoulder", "LeftArm", 95.0, {0, -1, 0}, false, {0.15, -1.0, 0.1}, 0.85, {-0.02, 0, 0.0}},
-    {"elbow", "LeftForeArm", 115.0, {0, 0, 0}, false, {0.55, -1.0, 0.55}, 0.68, {-0.055, 0, 0}},
+    {"shoulder", "LeftUpperArm", 95.0, {0, -1, 0}, false, {0.15, -1.0, 0.1}, 0.85, {-0.02, 0, 0.0}},
+    {"elbow", "LeftLowerArm", 115.0, {0, 0, 0}, false, {0.55, -1.0, 0.55}, 0.68, {-0.055, 0, 0}},
     {"wrist", "LeftHand", 160.0, {0, 0, 0}, true, {0.1, -1.0, 0.3}, 0.5, {0, 0, 0}},
-    {"hip", "LeftUpLeg", -95.0, {1, 0, 0}, false, {1.0, -0.75, 0.25}, 0.95, {0, -0.06, 0.03}},
-    {"knee", "LeftLeg", 120.0, {1, 0, 0}, false, {1.0, 0.25, 0.1}, 0.7, {0, 0.04, 0.03}},
+    {"hip", "LeftUpperLeg", -95.0, {1, 0, 0}, false, {1.0, -0.75, 0.25}, 0.95, {0, -0.06, 0.03}},
+    {"knee", "LeftLowerLeg", 120.0, {1, 0, 0}, false, {1.0, 0.25, 0.1}, 0.7, {0, 0.04, 0.03}},
 };
 
 glm::dvec3 axisOf(const Body& body, const Shot& shot, std::size_t joint) {
@@ -278,7 +279,7 @@ glm::dvec3 axisOf(const Body& body, const Shot& shot, std::size_t joint) {
 }
 
 Tile tile(const Body& body, const Shot& shot, Method method, const std::string& caption) {
-    const std::size_t joint = body.find(shot.joint);
+    const std::size_t joint = body.character.jointByRole(shot.joint);
     const auto posed =
         body.deform(method, body.turned(joint, axisOf(body, shot, joint), shot.degrees));
     const osg::ref_ptr<osg::Group> scene = makeLit(osg::Vec3d(toScene(shot.eye)));

@@ -50,15 +50,15 @@ int main(int argc, char** argv) {
              "painted weights (JSON) for the peers; without: from our ratios");
     line.add("--elastic", elastic,
              "a column with elastic shapes, too; solving them takes half a minute, once");
-    line.add("CHARACTER", file, "a .skin file with the joint names of the CMU skeletons");
+    line.add("CHARACTER", file, example::kCharacterHelp);
     return line.run(argc, argv, [&] {
         line.parse(argc, argv);
         osgSkin::LoadOptions options;
         options.shapes = osgSkin::BindOptions::Shapes::Fast;
-        figures::Body body(file, weights, options);
+        figures::Body body(figures::load(file, options), weights);
         std::optional<figures::Body> solid;
         options.shapes = osgSkin::BindOptions::Shapes::Elastic;
-        if (elastic) solid.emplace(file, weights, options);
+        if (elastic) solid.emplace(figures::load(file, options), weights);
         writeFigures(body, solid ? &*solid : nullptr, out, !weights.empty());
         return 0;
     });

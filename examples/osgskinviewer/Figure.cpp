@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "Figure.h"
 
-#include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinImport/ImportRig>
-#include <osgSkinImport/ReadScene>
-
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osg/Transform>
 #include <osg/TriangleFunctor>
 #include <osgAnimation/Bone>
-#include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
-#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace viewer {
@@ -46,42 +40,15 @@ private:
     Figure& _figure;
 };
 
-/// True if the file describes a body; other files are scenes.
-bool hasBody(const std::string& file) {
-    const bool isSkin = osgDB::getLowerCaseFileExtension(file) == "skin";
-    if (isSkin && osgDB::fileExists(file)) return true;
-    return osgSkin::hasImporter(isSkin ? osgDB::getNameLessExtension(file) : file);
-}
-
-osg::ref_ptr<osg::Group> readScene(const std::string& file) {
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(osgSkin::readScene(file, nullptr));
-    return root;
-}
-
-osg::ref_ptr<osg::Group> loadScene(const std::string& file) {
-    return osgSkin::loadCharacter(file).root;
-}
-
 } // namespace
 
 Figure::Figure(const std::string& file, const std::string& weights,
                const osgSkin::LoadOptions& options) {
-    if (hasBody(file)) {
-        body = std::make_unique<figures::Body>(file, weights, options);
-        root = body->character.root;
-    } else {
-        root = readScene(file);
-    }
+    osgSkin::Character character = figures::load(file, options);
+    root = character.root;
+    if (character.hasBody()) body = std::make_unique<figures::Body>(std::move(character), weights);
     Finder finder(*this);
     root->accept(finder);
-    if (!skins.empty()) return;
-    // Loading as a character converts the rigs of a scene to skins.
-    manager = nullptr;
-    managed = nullptr;
-    root = loadScene(file);
-    root->accept(finder);
-    if (skins.empty()) throw std::runtime_error(file + ": no skin in it, expected a character");
 }
 
 namespace {

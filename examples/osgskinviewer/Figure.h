@@ -20,15 +20,14 @@ namespace viewer {
 
 /// The scene of a file, and its body if known.
 struct Figure {
-    /// \param file a `.skin` file, a rigged model (with or without `.skin` after its name), or a
-    ///        scene with skins in it (`.osgb`)
+    /// \param file any that osgSkin::loadCharacter() takes
     /// \param weights file of painted weights (JSON); empty for none
-    /// \param options of the load; ignored for a scene, whose skins are already bound
+    /// \param options of the load
     /// \throw std::exception with the file and the reason
     Figure(const std::string& file, const std::string& weights,
            const osgSkin::LoadOptions& options);
 
-    /// Null if the file is a scene: its skins are bound, and the mesh is not stored.
+    /// Null for a saved character: its skins are bound, and the mesh is not stored.
     std::unique_ptr<figures::Body> body;
     osg::ref_ptr<osg::Group> root;
     std::vector<osg::ref_ptr<osgSkin::DeformableSkin>> skins; ///< below `root`

@@ -78,8 +78,7 @@ int main(int argc, char** argv) {
     osgSkin::LoadOptions options;
     double at = 0.0;
     bool paused = false, times = false;
-    line.add("CHARACTER", character,
-             "a .skin file, a rigged model (.glb, .fbx, ...), or a scene (.osgb)");
+    line.add("CHARACTER", character, example::kCharacterHelp);
     line.add("--weights", weights,
              "painted weights (JSON) for the peers; without: from our ratios");
     example::addCharacterOptions(line, options);

@@ -2,6 +2,8 @@
 #include "Recipes.h"
 #include "Ground.h"
 
+#include <osgSkin/DeformableSkin>
+
 #include <osg/CoordinateSystemNode>
 #include <osg/Group>
 #include <osg/Math>
@@ -41,6 +43,42 @@ osg::Matrixd onEarth() {
     osg::EllipsoidModel().computeLocalToWorldTransformFromLatLongHeight(
         osg::DegreesToRadians(37.57), osg::DegreesToRadians(126.98), 38.0, place);
     return place;
+}
+
+/// The recipe's view, for the samples' size.
+example::View ownView(const Recipe& recipe) {
+    example::View view = recipe.view;
+    view.up = osg::Matrixd::transform3x3(view.up, recipe.place);
+    view.eye = view.eye * recipe.place;
+    view.centre = view.centre * recipe.place;
+    return view;
+}
+
+/// The extent of the skins, in the world; invalid where there are none, as in crowds.
+class SkinExtent : public osg::NodeVisitor {
+public:
+    SkinExtent() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+    void apply(osg::Drawable& drawable) override {
+        if (!dynamic_cast<osgSkin::DeformableSkin*>(&drawable)) return;
+        const osg::Matrix toWorld = osg::computeLocalToWorld(getNodePath());
+        for (unsigned int corner = 0; corner < 8; ++corner)
+            box.expandBy(drawable.getBoundingBox().corner(corner) * toWorld);
+    }
+    osg::BoundingBox box;
+};
+
+/// The same direction, with all skins of a scene in view.
+example::View viewOfAll(const Recipe& recipe, osg::Node& scene) {
+    example::View view = ownView(recipe);
+    SkinExtent skins;
+    scene.accept(skins);
+    const osg::BoundingSphere bound =
+        skins.box.valid() ? osg::BoundingSphere(skins.box) : scene.getBound();
+    osg::Vec3d back = view.eye - view.centre;
+    back.normalize();
+    view.centre = bound.center();
+    view.eye = view.centre + back * (4.5 * double(bound.radius()));
+    return view;
 }
 
 } // namespace
@@ -107,33 +145,29 @@ const std::vector<Recipe>& recipes() {
     return all;
 }
 
-osg::ref_ptr<osg::Node> onStage(const Recipe& recipe, const std::string& file) {
-    const osg::ref_ptr<osg::Node> scene = recipe.make(file);
+Stage stageOf(const Recipe& recipe, const std::string& file, const std::string& samples) {
+    const bool isOwn = file.empty();
+    const osg::ref_ptr<osg::Node> scene = recipe.make(isOwn ? samples + "/" + recipe.sample : file);
+    Stage stage{scene, isOwn ? ownView(recipe) : viewOfAll(recipe, *scene)};
     if (recipe.isWireframe)
         scene->getOrCreateStateSet()->setAttribute(
             new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
-    if (recipe.floor == Floor::Own) return scene;
-    osg::ref_ptr<osg::Group> stage = new osg::Group;
+    if (recipe.floor == Floor::Own) return stage;
+    osg::ref_ptr<osg::Group> group = new osg::Group;
     if (recipe.floor == Floor::Shadowed)
-        stage = example::withShadow(scene);
+        group = example::withShadow(scene);
     else
-        stage->addChild(scene);
-    stage->addChild(example::makeFloor(4.0f));
+        group->addChild(scene);
+    group->addChild(example::makeFloor(4.0f));
+    stage.scene = group;
     return stage;
 }
 
-example::View viewOf(const Recipe& recipe) {
-    example::View view = recipe.view;
-    view.up = osg::Matrixd::transform3x3(view.up, recipe.place);
-    view.eye = view.eye * recipe.place;
-    view.centre = view.centre * recipe.place;
-    return view;
-}
-
-osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& folder) {
+osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& file,
+                                   const std::string& samples) {
+    const Stage stage = stageOf(recipe, file, samples);
     osg::ref_ptr<osg::Image> picture =
-        example::Snapshots(onStage(recipe, folder + "/" + recipe.sample), viewOf(recipe), 320, 240)
-            .take(recipe.time);
+        example::Snapshots(stage.scene, stage.view, 320, 240).take(recipe.time);
     // Fewer shades, for small files.
     for (unsigned int i = 0; i < picture->getTotalSizeInBytes(); ++i)
         picture->data()[i] = static_cast<unsigned char>(picture->data()[i] / 8 * 8 + 4);

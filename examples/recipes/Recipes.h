@@ -27,13 +27,19 @@ struct Recipe {
 /// All recipes, in the order of the page.
 const std::vector<Recipe>& recipes();
 
-/// A recipe's scene on its stage: a light, and a floor where it has none of its own.
-/// \param file of the character
-osg::ref_ptr<osg::Node> onStage(const Recipe& recipe, const std::string& file);
+/// A recipe's scene, and where to look at it from.
+struct Stage {
+    osg::ref_ptr<osg::Node> scene; ///< with a light, and a floor where it has none of its own
+    example::View view;            ///< in the world
+};
 
-/// The camera of a recipe's picture, in the world.
-example::View viewOf(const Recipe& recipe);
+/// \param file of a character; empty for the recipe's own
+/// \param samples folder of writeSamples()
+/// \throw std::exception with a sentence where the recipe cannot show the character
+Stage stageOf(const Recipe& recipe, const std::string& file, const std::string& samples);
 
 /// A recipe's picture, of 320 x 240 pixels.
-/// \param folder of writeSamples()
-osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& folder);
+/// \param file of a character; empty for the recipe's own
+/// \param samples folder of writeSamples()
+osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& file,
+                                   const std::string& samples);

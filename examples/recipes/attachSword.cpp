@@ -22,15 +22,18 @@ osg::ref_ptr<osg::Node> makeSword() {
 /// A sword that moves with the right hand.
 osg::ref_ptr<osg::Node> attachSword(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
-    const osg::ref_ptr<osgAnimation::Bone> hand = character.bone("RightHand");
+    const osg::ref_ptr<osgAnimation::Bone> hand = character.boneByRole("RightHand");
 
-    // Where the sword is when the figure stands as its mesh does, in the mesh's space: in the
-    // palm, which is between the wrist and the fingers, and across the fingers.
-    const osg::Matrixd rest = osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osg::Vec3d(0.33, 0.37, 1)) *
-                              osg::Matrixd::translate(osg::Vec3d(-0.65, 1.01, 0.03));
-    // The inverse bind matrix leads from there to the bone.
+    // In the scene, in the bind pose: in the palm, pointing ahead (-Y), as large as suits the arm.
+    const osg::Vec3d wrist = character.restPosition("RightHand");
+    const osg::Vec3d forearm = wrist - character.restPosition("RightLowerArm");
+    const osg::Matrixd inScene =
+        osg::Matrixd::scale(osg::Vec3d(1, 1, 1) * (forearm.length() / 0.28)) *
+        osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osg::Vec3d(0.3, -1, 0.35)) *
+        osg::Matrixd::translate(wrist + forearm * 0.35);
     const osg::ref_ptr<osg::MatrixTransform> inHand =
-        new osg::MatrixTransform(rest * hand->getInvBindMatrixInSkeletonSpace());
+        new osg::MatrixTransform(inScene * osg::Matrixd::inverse(character.toWorld) *
+                                 hand->getInvBindMatrixInSkeletonSpace());
     inHand->addChild(makeSword());
     hand->addChild(inHand);
     return character.root;

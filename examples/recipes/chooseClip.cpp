@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
 
-/// Plays a clip by its name, in place of the first one.
+#include <iostream>
+
+/// Lists a character's clips, and plays the last one in place of the first.
 osg::ref_ptr<osg::Node> chooseClip(const std::string& file) {
-    const osgSkin::Character character = osgSkin::loadCharacter(file);
-    osgAnimation::BasicAnimationManager& manager = *character.manager;
-    manager.stopAll();
-    for (const osg::ref_ptr<osgAnimation::Animation>& clip : manager.getAnimationList())
-        if (clip->getName() == "wave") manager.playAnimation(clip);
+    osgSkin::Character character = osgSkin::loadCharacter(file);
+    for (const osgSkin::CharacterMotion& motion : character.motions)
+        std::cout << motion.name() << ", " << motion.duration() << " s\n";
+    if (!character.motions.empty()) character.play(character.motions.back().name());
     return character.root;
 }

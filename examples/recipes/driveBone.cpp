@@ -9,15 +9,16 @@
 
 namespace {
 
-/// Raises and lowers a bone on top of the clip that plays.
+/// Raises and lowers an arm on top of the clip that plays.
 struct Raise : osg::NodeCallback {
+    explicit Raise(const osg::Vec3d& skeletonAxis) : axis(skeletonAxis) {}
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv); // all bones below are now in the clip's pose
         const double time = nv->getFrameStamp()->getSimulationTime();
-        // The thrower's skeleton has Y up and faces +Z: the left arm goes up about Z.
-        const osg::Quat rotation(1.7 + 0.4 * std::sin(3.0 * time), osg::Vec3d(0, 0, 1));
+        const osg::Quat rotation(1.7 + 0.4 * std::sin(3.0 * time), axis);
         osgSkin::rotateBone(static_cast<osgAnimation::Bone&>(*node), rotation);
     }
+    osg::Vec3d axis; ///< in the skeleton's space
 };
 
 } // namespace
@@ -25,6 +26,10 @@ struct Raise : osg::NodeCallback {
 /// A figure that walks with a raised arm.
 osg::ref_ptr<osg::Node> driveBone(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
-    character.bone("LeftArm")->addUpdateCallback(new Raise);
+    // About the direction in which the figure looks: -Y in the scene.
+    const osg::Matrixd fromScene = osg::Matrixd::inverse(character.toWorld);
+    osg::Vec3d axis = osg::Matrixd::transform3x3(osg::Vec3d(0, -1, 0), fromScene);
+    axis.normalize();
+    character.boneByRole("LeftUpperArm")->addUpdateCallback(new Raise(axis));
     return character.root;
 }

@@ -8,14 +8,12 @@ namespace {
 
 /// Turns a head towards a point while a clip plays.
 struct LookAt : osg::NodeCallback {
-    explicit LookAt(const osg::Vec3d& skeletonTarget) : target(skeletonTarget) {}
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv);
-        // The face looks along +Z at rest.
         auto& head = static_cast<osgAnimation::Bone&>(*node);
-        osgSkin::lookAt(head, osg::Vec3d(0, 0, 1), target, osg::DegreesToRadians(70.0));
+        osgSkin::lookAt(head, forward, target, osg::DegreesToRadians(70.0));
     }
-    osg::Vec3d target; ///< in the skeleton's space
+    osg::Vec3d forward, target; ///< in the skeleton's space
 };
 
 } // namespace
@@ -23,9 +21,14 @@ struct LookAt : osg::NodeCallback {
 /// A figure that walks and looks at a ball.
 osg::ref_ptr<osg::Node> lookAtTarget(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
-    const osg::Vec3d ball(0.7, -0.7, 1.2); // in the scene: Z up, the figure faces -Y
-    character.root->addChild(new osg::ShapeDrawable(new osg::Sphere(ball, 0.08f)));
-    const osg::Vec3d target = ball * osg::Matrixd::inverse(character.toWorld);
-    character.bone("Head")->addUpdateCallback(new LookAt(target));
+    // In the scene, where Z is up and the figure faces -Y, in parts of its height.
+    const osg::Vec3d head = character.restPosition("Head");
+    const osg::Vec3d ball = head + osg::Vec3d(0.45, -0.45, -0.25) * head.z();
+    character.root->addChild(new osg::ShapeDrawable(new osg::Sphere(ball, float(0.05 * head.z()))));
+    const osg::Matrixd fromScene = osg::Matrixd::inverse(character.toWorld);
+    const osg::ref_ptr<LookAt> lookAt = new LookAt;
+    lookAt->forward = osg::Matrixd::transform3x3(osg::Vec3d(0, -1, 0), fromScene);
+    lookAt->target = ball * fromScene;
+    character.boneByRole("Head")->addUpdateCallback(lookAt);
     return character.root;
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinGpu/GpuCrowd>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
-#include <osgDB/ReadFile>
-
-#include <stdexcept>
 
 namespace {
 
@@ -20,18 +18,15 @@ struct PlayCrowd : osg::NodeCallback {
 
 } // namespace
 
-/// A thousand members of one character, each in its own phase of one of two clips.
-///
-/// \param file any character, such as a .skin, a .glb.skin or a saved one
+/// A thousand members of one character, each in its own phase of one of its clips.
 osg::ref_ptr<osg::Node> makeCrowd(const std::string& file) {
-    const osg::ref_ptr<osg::Node> loaded = osgDB::readRefNodeFile(file);
-    if (!loaded) throw std::runtime_error(file + ": cannot be read");
-    const auto character = osgSkin::CrowdCharacter::create(*loaded);
+    const auto character = osgSkin::CrowdCharacter::create(*osgSkin::loadCharacter(file).root);
+    const double step = 0.55 * (character->bounds().zMax() - character->bounds().zMin());
     const osg::ref_ptr<osgSkin::GpuCrowd> crowd = new osgSkin::GpuCrowd(character);
     std::vector<osgSkin::CrowdInstance> members(1000);
     for (std::size_t i = 0; i < members.size(); ++i) {
-        members[i].position = osg::Vec3d(double(i % 32), double(i / 32), 0.0);
-        members[i].clip = character->clip(i % 3 == 0 ? "wave" : "walk");
+        members[i].position = osg::Vec3d(double(i % 32), double(i / 32), 0.0) * step;
+        members[i].clip = static_cast<unsigned int>(i % 3 == 0 ? character->clipCount() - 1 : 0);
         members[i].phase = 0.1 * double(i);
     }
     crowd->setInstances(members);

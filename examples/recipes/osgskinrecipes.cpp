@@ -5,6 +5,8 @@
 #include "Samples.h"
 #include "WindowOptions.h"
 
+#include <osgSkin/Error>
+
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
@@ -17,25 +19,29 @@
 
 namespace {
 
-int show(const Recipe& recipe, const std::string& file, osgViewer::Viewer& viewer,
-         const example::WindowOptions& window) {
-    viewer.setSceneData(onStage(recipe, file));
+int show(const Stage& stage, osgViewer::Viewer& viewer, const example::WindowOptions& window) {
+    viewer.setSceneData(stage.scene);
     viewer.addEventHandler(new osgViewer::StatsHandler);
-    const example::View view = viewOf(recipe);
     const osg::ref_ptr<osgGA::TrackballManipulator> camera = new osgGA::TrackballManipulator;
-    camera->setHomePosition(view.eye, view.centre, view.up);
+    camera->setHomePosition(stage.view.eye, stage.view.centre, stage.view.up);
     viewer.setCameraManipulator(camera);
     window.open(viewer);
     return viewer.run();
 }
 
-void takePictures(const std::vector<Recipe>& chosen, const std::string& samples,
-                  const std::string& folder) {
-    for (const Recipe& recipe : chosen) {
-        const std::string file = folder + "/" + recipe.name + ".png";
-        example::writePicture(*pictureOf(recipe, samples), file);
-        std::cout << file << std::endl;
-    }
+/// \return the exit status: 1 where a recipe cannot show the character, which stderr says
+int takePictures(const std::vector<Recipe>& chosen, const std::string& character,
+                 const std::string& samples, const std::string& folder) {
+    int status = 0;
+    for (const Recipe& recipe : chosen) try {
+            const std::string file = folder + "/" + recipe.name + ".png";
+            example::writePicture(*pictureOf(recipe, character, samples), file);
+            std::cout << file << std::endl;
+        } catch (const std::exception& error) {
+            std::cerr << recipe.name << ": " << osgSkin::onOneLine(error.what()) << std::endl;
+            status = 1;
+        }
+    return status;
 }
 
 std::vector<Recipe> choose(const std::string& name) {
@@ -60,7 +66,8 @@ int main(int argc, char** argv) {
     std::string samples =
         (std::filesystem::temp_directory_path() / "osgskin-recipes").generic_string();
     line.add("RECIPE", name, "the recipe; all with --out if none is named");
-    line.add("CHARACTER", file, "a character to show in place of the recipe's own");
+    line.add("CHARACTER", file,
+             std::string(example::kCharacterHelp) + ", in place of the recipe's own");
     line.add("--list", list, "list the recipes");
     line.add("--out", out, "write pictures to this folder; no window to look at");
     line.add("--characters", samples, "folder for the characters that recipes show").showDefault();
@@ -75,11 +82,8 @@ int main(int argc, char** argv) {
             for (const Recipe& recipe : chosen) std::cout << recipe.name << '\n';
             return 0;
         }
-        if (file.empty() || !out.empty()) writeSamples(data, samples);
-        if (out.empty())
-            return show(chosen.front(), file.empty() ? samples + "/" + chosen.front().sample : file,
-                        viewer, window);
-        takePictures(chosen, samples, out);
-        return 0;
+        if (file.empty()) writeSamples(data, samples);
+        if (out.empty()) return show(stageOf(chosen.front(), file, samples), viewer, window);
+        return takePictures(chosen, file, samples, out);
     });
 }

@@ -9,18 +9,17 @@
 
 namespace {
 
-/// Aims along a line at a moving figure, and keeps a mark at the point that it hits.
+/// Aims at a moving figure from the front, and keeps a mark at the point that the line hits.
 struct Pick : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv); // the figure is now posed for this frame
-        const osg::Vec3d from(-0.1, -5, 1.25), to(-0.1, 5, 1.25);
-        const osg::ref_ptr line = new osgUtil::LineSegmentIntersector(from, to);
+        const osg::Vec3d chest = node->getBound().center() + osg::Vec3(0, 0, 0.3f), far(0, 50, 0);
+        const osg::ref_ptr line = new osgUtil::LineSegmentIntersector(chest - far, chest + far);
         osgUtil::IntersectionVisitor visitor(line);
         node->accept(visitor);
         const auto at = line->getFirstIntersection();
         mark->setMatrix(osg::Matrix::translate(at.getWorldIntersectPoint()));
-        if (const auto hit = osgSkin::skinHit(at))
-            std::cout << hit->joint << ", at rest " << hit->rest.y() << " m above the floor\n";
+        if (const auto hit = osgSkin::skinHit(at)) std::cout << hit->joint << '\n';
     }
     osg::ref_ptr<osg::MatrixTransform> mark = new osg::MatrixTransform;
 };
@@ -32,8 +31,8 @@ osg::ref_ptr<osg::Node> pickPoint(const std::string& file) {
     const osgSkin::Character character = osgSkin::loadCharacter(file);
     const osg::ref_ptr<Pick> pick = new Pick;
     pick->mark->addChild(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 0.06f)));
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
     character.root->addUpdateCallback(pick);
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(character.root);
     scene->addChild(pick->mark);
     return scene;

@@ -4,6 +4,7 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace {
@@ -29,6 +30,8 @@ osg::ref_ptr<osg::Node> load(const std::string& saved) {
 
 /// A character that was saved and read again.
 osg::ref_ptr<osg::Node> shipAsOsgb(const std::string& file) {
-    save(file, file + ".osgb");
-    return load(file + ".osgb");
+    const std::string saved =
+        (std::filesystem::temp_directory_path() / "osgskin-recipe.osgb").string();
+    save(file, saved);
+    return load(saved);
 }

@@ -3,6 +3,7 @@
 #include "Recipes.h"
 #include "Pixels.h"
 #include "Samples.h"
+#include "UpdateAt.h"
 
 #include <osgSkin/SetMorph>
 #include <osgSkinCharacter/LoadCharacter>
@@ -32,12 +33,27 @@ TEST_P(Recipes, MatchThePicturesOnTheirPage) {
     const osg::ref_ptr<osg::Image> expected =
         osgDB::readRefImageFile(kPictures + GetParam().name + ".png");
     ASSERT_TRUE(expected);
-    const osg::ref_ptr<osg::Image> picture = pictureOf(GetParam(), kSamples);
+    const osg::ref_ptr<osg::Image> picture = pictureOf(GetParam(), {}, kSamples);
     ASSERT_EQ(expected->s(), picture->s());
     ASSERT_EQ(expected->t(), picture->t());
     ASSERT_EQ(expected->getPixelFormat(), GLenum(GL_RGB));
     // Drivers may smooth edges and rasterise shadows otherwise.
     EXPECT_LE(test::unlikePixels(*picture, *expected), test::pixelCount(*expected) / 300);
+}
+
+/// A saved character, a rigged model whose joints are not recognised, and a file that is missing.
+TEST_P(Recipes, ShowAnyCharacterOrSayWhyNot) {
+    for (const std::string& file :
+         {kSamples + "/face.osgb", std::string(OSGSKIN_TEST_DATA "/rig/tube.gltf"),
+          kSamples + "/missing.glb"}) {
+        try {
+            const Stage stage = stageOf(GetParam(), file, kSamples);
+            test::updateAt(*stage.scene, 0.0);
+            test::updateAt(*stage.scene, 0.1);
+        } catch (const std::exception& error) {
+            EXPECT_NE(std::string(error.what()).find(' '), std::string::npos) << error.what();
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Recipes, testing::ValuesIn(recipes()),

@@ -5,6 +5,7 @@
 #include "source/ApplyOptions.h"
 
 #include <osgSkin/AutoPlayManager>
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkinBind/ConvertRigs>
@@ -12,6 +13,7 @@
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
 #include <osgSkinImport/ReadScene>
+#include <osgSkinRig/ReadSkeleton>
 
 #include <osg/MatrixTransform>
 #include <osg/Node>
@@ -22,6 +24,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -185,6 +188,12 @@ osg::ref_ptr<osg::StateSet> stateOf(const osg::Node& skin) {
     return merged;
 }
 
+void takeSkeleton(osgAnimation::Skeleton& skeleton, Character& character) {
+    character.skeleton = &skeleton;
+    const osg::NodePathList paths = skeleton.getParentalNodePaths(character.root);
+    if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
+}
+
 /// Makes a scene's only body the character's.
 void takeBody(ConvertedBody& body, const BindOptions& options, Character& character) {
     character.body.mesh = std::move(body.mesh);
@@ -194,20 +203,60 @@ void takeBody(ConvertedBody& body, const BindOptions& options, Character& charac
     character.bindReport = std::move(body.report);
     character.bindOptions = options;
     character.bindOptions.progress = {};
-    character.skeleton = body.skeleton;
     character.skin.skins = std::move(body.skins);
     for (std::size_t i = 0; i < character.skin.skins.size(); ++i)
         character.body.parts[i].geometry->setStateSet(stateOf(*character.skin.skins[i].drawable));
-    const osg::NodePathList paths = body.skeleton->getParentalNodePaths(character.root);
-    if (!paths.empty()) character.toWorld = osg::computeLocalToWorld(paths.front());
+    takeSkeleton(*body.skeleton, character);
+}
+
+/// Finds the skins of a saved character.
+class SavedSkins : public osg::NodeVisitor {
+public:
+    SavedSkins() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Transform& node) override {
+        if (auto* skeleton = dynamic_cast<osgAnimation::Skeleton*>(&node))
+            skeletons.insert(skeleton);
+        traverse(node);
+    }
+    void apply(osg::Drawable& drawable) override {
+        if (auto* skin = dynamic_cast<DeformableSkin*>(&drawable)) skins.push_back({skin, {}});
+    }
+
+    std::vector<AttachedSkin::Skin> skins;
+    std::set<osgAnimation::Skeleton*> skeletons;
+};
+
+/// Whether options ask for another binding, shape or size than the saved one.
+bool asksForBinding(const LoadOptions& options) {
+    return options.method != LoadOptions::Method::Default || options.shapes || options.muscles ||
+           options.surfaceNormals || options.avoidBody || options.rigid || options.mergeRigid ||
+           options.unit || options.showRegions;
+}
+
+/// Makes a scene that has skins already the character.
+/// \return false where it has none
+bool takeSaved(const LoadOptions& options, Character& character) {
+    SavedSkins saved;
+    character.root->accept(saved);
+    if (saved.skins.empty()) return false;
+    character.skin.skins = std::move(saved.skins);
+    if (saved.skeletons.size() == 1) {
+        takeSkeleton(**saved.skeletons.begin(), character);
+        character.rest = readSkeleton(*character.skeleton);
+    }
+    if (asksForBinding(options))
+        warn(character.notes, character.file + ": bound already, so options of binding, shapes "
+                                               "and unit have no effect; load what it was made of");
+    return true;
 }
 
 /// Rotates the whole scene, and scales it to metres, without changing the author's nodes.
 void placeScene(double metresPerUnit, Character& character) {
     osg::Matrixd place = osg::Matrixd::scale(metresPerUnit, metresPerUnit, metresPerUnit);
     if (character.hasBody())
-        place = place * orientToFront(recogniseJoints(character.rest),
-                                      boneCentres(character.rest, *character.root));
+        place =
+            place * orientToFront(character.roles, boneCentres(character.rest, *character.root));
     if (place.isIdentity()) return;
     const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(place);
     placed->setName(character.root->getName());
@@ -233,18 +282,20 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     ConvertOptions convert = convertOptionsOf(options);
     convert.bind.progress = stages.begin("binding", binding);
     ConvertReport report = convertRigs(*scene, convert);
-    if (report.skins.empty())
-        throw Error(file + ": " +
-                    (report.notes.empty() ? "no osgAnimation::RigGeometry, expected a rigged model"
-                                          : report.notes.front()));
     Character character;
     character.file = character.meshFile = file;
     character.files = {file};
     character.notes = report.notes;
-    for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     character.root = asGroup(scene);
+    const bool isSaved = report.skins.empty() && takeSaved(options, character);
+    if (report.skins.empty() && !isSaved)
+        throw Error(file + ": " +
+                    (report.notes.empty() ? "no osgAnimation::RigGeometry, expected a rigged model"
+                                          : report.notes.front()));
+    for (const auto& skin : report.skins) character.skin.skins.push_back({skin, {}});
     if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
-    placeScene(unitOf(0.0, options, file, character.notes), character);
+    character.roles = recogniseJoints(character.rest);
+    if (!isSaved) placeScene(unitOf(0.0, options, file, character.notes), character);
     takeSceneMotions(options, character);
     stages.finish();
     return character;

@@ -317,7 +317,8 @@ osg::Matrixd frontRotation(const Character& character, const JointRoles& roles) 
 void buildScene(CharacterSource& source, const LoadOptions& options, Character& character) {
     if (options.showRegions) showRegions(character.body.parts, character.binding);
     attach(source, character);
-    const JointRoles roles = recogniseJoints(character.rest, source.bind.names);
+    character.roles = recogniseJoints(character.rest, source.bind.names);
+    const JointRoles& roles = character.roles;
     if (!source.skeleton) character.toWorld = character.toWorld * frontRotation(character, roles);
     const osg::ref_ptr<osg::MatrixTransform> upright = makeUpright(character);
     upright->addChild(character.skeleton);

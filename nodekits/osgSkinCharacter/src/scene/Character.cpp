@@ -3,6 +3,8 @@
 
 #include <osgSkin/BoneReader>
 #include <osgSkin/Error>
+#include <osgSkin/ExpectedNames>
+#include <osgSkin/GlmOsg>
 #include <osgSkin/SetMorph>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkin/UpdatePlayedSkeleton>
@@ -54,6 +56,39 @@ osg::ref_ptr<osgAnimation::Bone> Character::bone(const std::string& name) {
     const osgAnimation::BoneMap bones = bonesOf(*skeleton);
     const auto found = bones.find(name);
     return found == bones.end() ? nullptr : found->second;
+}
+
+std::size_t Character::jointByRole(const std::string& role) const {
+    const int joint = roles.joint(role);
+    if (joint >= 0) return std::size_t(joint);
+    throw Error(file + ": no joint is known to be the \"" + role + '"' +
+                (roles.joints.empty() ? std::string("; none of its joints was recognised")
+                                      : expectedNames(role, roles.joints)));
+}
+
+osg::ref_ptr<osgAnimation::Bone> Character::boneByRole(const std::string& role) {
+    const std::string& name = rest.joints[jointByRole(role)].name;
+    const osg::ref_ptr<osgAnimation::Bone> found = bone(name);
+    if (!found) throw Error(file + ": the joint \"" + name + "\" has no bone");
+    return found;
+}
+
+osg::Vec3d Character::restPosition(const std::string& role) const {
+    return toOsg(rest.joints[jointByRole(role)].centre) * toWorld;
+}
+
+void Character::play(const std::string& motion) {
+    std::vector<std::string> known;
+    for (const CharacterMotion& each : motions) {
+        known.push_back(each.name());
+        if (each.name() != motion) continue;
+        manager->stopAll();
+        manager->playAnimation(each.animation);
+        return;
+    }
+    throw Error(
+        file + ": no motion \"" + motion + '"' +
+        (known.empty() ? std::string("; the character has none") : expectedNames(motion, known)));
 }
 
 std::vector<std::string> Character::morphs() const {
