@@ -68,31 +68,6 @@ HWY_INLINE void loadFour(const double* const* from, std::size_t at, Doubles (&to
 #endif
 }
 
-/// The inverse of loadFour().
-///
-/// \param to the array of the first lane
-/// \param next the distance between two lanes' arrays
-HWY_INLINE void storeFour(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& w,
-                          double* to, std::size_t next) {
-    const DoubleTag d;
-#if HWY_TARGET <= HWY_AVX2
-    const Doubles even = hn::InterleaveLower(d, x, y), odd = hn::InterleaveUpper(d, x, y);
-    const Doubles even2 = hn::InterleaveLower(d, z, w), odd2 = hn::InterleaveUpper(d, z, w);
-    hn::StoreU(hn::ConcatLowerLower(d, even2, even), d, to);
-    hn::StoreU(hn::ConcatLowerLower(d, odd2, odd), d, to + next);
-    hn::StoreU(hn::ConcatUpperUpper(d, even2, even), d, to + 2 * next);
-    hn::StoreU(hn::ConcatUpperUpper(d, odd2, odd), d, to + 3 * next);
-#else
-    double lanes[4][4];
-    hn::StoreU(x, d, lanes[0]);
-    hn::StoreU(y, d, lanes[1]);
-    hn::StoreU(z, d, lanes[2]);
-    hn::StoreU(w, d, lanes[3]);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane, to += next)
-        for (std::size_t i = 0; i < 4; ++i) to[i] = lanes[i][lane];
-#endif
-}
-
 /// Gathers row[at[lane]].
 HWY_INLINE Doubles loadEach(const double* row, const int* at) {
     const DoubleTag d;
