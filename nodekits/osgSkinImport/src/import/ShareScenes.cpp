@@ -4,13 +4,13 @@
 #include "assimp/AssimpScene.h"
 #include "files/FileFormat.h"
 #include "files/FileText.h"
+#include "files/SharedByOptions.h"
 #include "gltf/ReadGltf.h"
 #include "import/ShareScenes.h"
 
 #include <osgSkinImport/ReadLimits>
 
 #include <osg/Object>
-#include <osg/UserDataContainer>
 
 #include <filesystem>
 #include <map>
@@ -28,17 +28,6 @@ public:
     SharedScenes(const SharedScenes& other, const osg::CopyOp& copy)
         : osg::Object(other, copy), files(other.files) {}
     META_Object(osgSkin, SharedScenes)
-
-    /// The scenes of some options; null if `options` is null or has none.
-    static SharedScenes* of(const osgDB::Options* options) {
-        const osg::UserDataContainer* all =
-            options != nullptr ? options->getUserDataContainer() : nullptr;
-        if (all == nullptr) return nullptr;
-        for (unsigned i = 0; i < all->getNumUserObjects(); ++i)
-            if (const auto* found = dynamic_cast<const SharedScenes*>(all->getUserObject(i)))
-                return const_cast<SharedScenes*>(found); // options are const, but exist to share it
-        return nullptr;
-    }
 
     std::map<std::string, Scene> files; ///< by canonical path
 
@@ -74,7 +63,7 @@ void refuse(const std::string& path, const ReadLimits& limits, const std::string
 
 Scene readSourceScene(const std::string& path, const osgDB::Options* options) {
     const ReadLimits limits = ReadLimits::of(options);
-    SharedScenes* const shared = SharedScenes::of(options);
+    SharedScenes* const shared = sharedBy<SharedScenes>(options);
     if (shared == nullptr) return readFile(path, limits);
     std::error_code failure;
     const std::string file = std::filesystem::weakly_canonical(path, failure).string();
@@ -84,14 +73,7 @@ Scene readSourceScene(const std::string& path, const osgDB::Options* options) {
 }
 
 osg::ref_ptr<osgDB::Options> shareScenes(const osgDB::Options* options) {
-    const osg::ref_ptr<osgDB::Options> result =
-        options != nullptr ? options->cloneOptions() : new osgDB::Options;
-    if (SharedScenes::of(result) != nullptr) return result;
-    // cloneOptions() shares the container with the original.
-    if (const osg::UserDataContainer* all = result->getUserDataContainer())
-        result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
-    result->getOrCreateUserDataContainer()->addUserObject(new SharedScenes);
-    return result;
+    return share<SharedScenes>(options);
 }
 
 } // namespace osgSkin

@@ -2,11 +2,11 @@
 #include "mesh/Images.h"
 
 #include "files/FileText.h"
+#include "files/SharedByOptions.h"
 
 #include <osgSkin/Error>
 #include <osgSkinImport/ShareImages>
 
-#include <osg/UserDataContainer>
 #include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
@@ -70,16 +70,6 @@ bool hasShortTables(std::string_view bytes) {
 
 } // namespace
 
-SharedImages* SharedImages::of(const osgDB::Options* options) {
-    const osg::UserDataContainer* all =
-        options != nullptr ? options->getUserDataContainer() : nullptr;
-    if (all == nullptr) return nullptr;
-    for (unsigned i = 0; i < all->getNumUserObjects(); ++i)
-        if (const auto* found = dynamic_cast<const SharedImages*>(all->getUserObject(i)))
-            return const_cast<SharedImages*>(found); // options are const, but exist to share it
-    return nullptr;
-}
-
 osg::ref_ptr<osg::Image> SharedImages::once(const std::string& path, const std::string& part,
                                             const std::function<osg::ref_ptr<osg::Image>()>& read) {
     std::error_code failure;
@@ -96,20 +86,13 @@ osg::ref_ptr<osg::Image> SharedImages::once(const std::string& path, const std::
 }
 
 osg::ref_ptr<osgDB::Options> shareImages(const osgDB::Options* options) {
-    const osg::ref_ptr<osgDB::Options> result =
-        options != nullptr ? options->cloneOptions() : new osgDB::Options;
-    if (SharedImages::of(result) != nullptr) return result;
-    // cloneOptions() shares the container with the original.
-    if (const osg::UserDataContainer* all = result->getUserDataContainer())
-        result->setUserDataContainer(osg::clone(all, osg::CopyOp::SHALLOW_COPY));
-    result->getOrCreateUserDataContainer()->addUserObject(new SharedImages);
-    return result;
+    return share<SharedImages>(options);
 }
 
 ImageReader::ImageReader(const osgDB::Options* options)
     : _limits(ReadLimits::of(options)),
-      _shared(SharedImages::of(options) != nullptr ? SharedImages::of(options) : new SharedImages) {
-}
+      _shared(sharedBy<SharedImages>(options) != nullptr ? sharedBy<SharedImages>(options)
+                                                         : new SharedImages) {}
 
 bool ImageReader::decodes(const std::string& extension) {
     static const char* const formats[] = {"bmp", "jpeg", "jpg", "png", "tga"};

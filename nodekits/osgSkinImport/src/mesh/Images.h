@@ -27,9 +27,6 @@ public:
     }
     META_Object(osgSkin, SharedImages)
 
-    /// The images that some options share; null if `options` is null or shares none.
-    static SharedImages* of(const osgDB::Options* options);
-
     /// The image of a file; null if it cannot be read.
     /// \param path of the file, in any spelling
     /// \param part name of an image within the file; empty for the whole file
