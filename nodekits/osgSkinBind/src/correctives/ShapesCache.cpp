@@ -35,22 +35,28 @@ constexpr std::size_t kFixedVertices = 1000;
 class ByteWriter {
 public:
     template <typename T>
-    void add(const T& value) {
+    void value(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
         _bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
     }
 
     /// Writes their number first. T must have no padding.
     template <typename T>
-    void addAll(const std::vector<T>& values) {
+    void values(const std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
-        add(static_cast<std::uint64_t>(values.size()));
+        value(static_cast<std::uint64_t>(values.size()));
         _bytes.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
     }
 
-    void addText(const std::string& text) {
-        add(static_cast<std::uint64_t>(text.size()));
+    void text(const std::string& text) {
+        value(static_cast<std::uint64_t>(text.size()));
         _bytes += text;
+    }
+
+    template <typename T, typename Write>
+    void list(const std::vector<T>& items, const Write& write) {
+        value(static_cast<std::uint64_t>(items.size()));
+        for (const T& item : items) write(item);
     }
 
     const std::string& bytes() const { return _bytes; }
@@ -59,37 +65,42 @@ private:
     std::string _bytes;
 };
 
-/// Reads what a ByteWriter wrote, in the same order. After the first value that does not fit,
-/// failed() is true and values stay as they are.
+/// Reads what a ByteWriter wrote, in the same order, by functions of the same names. From the first
+/// value that does not fit on, values stay as they are.
 class ByteReader {
 public:
     explicit ByteReader(const std::string& bytes) : _bytes(bytes) {}
 
     template <typename T>
-    void take(T& value) {
+    void value(T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
         if (has(1, sizeof(T))) copy(&value, sizeof(T));
     }
 
     template <typename T>
-    void takeAll(std::vector<T>& values) {
+    void values(std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         std::uint64_t count = 0;
-        take(count);
+        value(count);
         if (!has(count, sizeof(T))) return;
         values.resize(static_cast<std::size_t>(count));
         copy(values.data(), sizeof(T) * values.size());
     }
 
-    void takeText(std::string& text) {
+    void text(std::string& text) {
         std::vector<char> letters;
-        takeAll(letters);
+        values(letters);
         text.assign(letters.begin(), letters.end());
+    }
+
+    template <typename T, typename Read>
+    void list(std::vector<T>& items, const Read& read) {
+        std::uint64_t count = 0;
+        for (value(count); count > 0 && !_failed; --count) read(items.emplace_back());
     }
 
     /// True if all bytes were read, and none were missing.
     bool isComplete() const { return !_failed && _at == _bytes.size(); }
-    bool failed() const { return _failed; }
 
 private:
     bool has(std::uint64_t count, std::size_t size) {
@@ -112,79 +123,57 @@ private:
 std::string inputDigest(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                         const WeldedMesh& mesh, const Binding& binding) {
     ByteWriter writer;
-    writer.addText(OSGSKIN_VERSION);
-    writer.add(kMakerVersion);
+    writer.text(OSGSKIN_VERSION);
+    writer.value(kMakerVersion);
     for (const RestJoint& joint : skeleton.joints) {
-        writer.addText(joint.name);
-        writer.add(joint.parent);
-        writer.add(joint.centre);
-        writer.add(joint.tip ? 1 : 0);
-        if (joint.tip) writer.add(*joint.tip);
+        writer.text(joint.name);
+        writer.value(joint.parent);
+        writer.value(joint.centre);
+        writer.value(joint.tip ? 1 : 0);
+        if (joint.tip) writer.value(*joint.tip);
     }
     for (const PlannedJoint& joint : joints) {
         for (const glm::dvec3& vector : {joint.boneAxis, joint.comingFrom, joint.twistAxis})
-            writer.add(vector);
-        for (const double length : {joint.boneLength, joint.lengthAbove}) writer.add(length);
+            writer.value(vector);
+        for (const double length : {joint.boneLength, joint.lengthAbove}) writer.value(length);
         for (const int number : {static_cast<int>(joint.part), joint.parent, joint.rigid})
-            writer.add(number);
+            writer.value(number);
         for (const bool flag : {joint.isExtremity(), joint.isOfTrunk(), joint.holdsRegion()})
-            writer.add(flag);
+            writer.value(flag);
     }
-    writer.addAll(mesh.positions);
-    writer.addAll(mesh.weldedOf);
-    writer.addAll(mesh.triangles);
-    writer.addAll(binding.firstInfluence);
-    writer.addAll(binding.influences);
+    writer.values(mesh.positions);
+    writer.values(mesh.weldedOf);
+    writer.values(mesh.triangles);
+    writer.values(binding.firstInfluence);
+    writer.values(binding.influences);
     return digestOf(writer.bytes());
 }
 
-std::string toBytes(const MadeShapes& shapes) {
-    ByteWriter writer;
-    writer.add(static_cast<std::uint64_t>(shapes.notes.size()));
-    for (const std::string& note : shapes.notes) writer.addText(note);
-    const Correctives& correctives = shapes.correctives;
-    writer.add(static_cast<std::uint64_t>(correctives.joints.size()));
-    for (const CorrectiveJoint& joint : correctives.joints) {
-        writer.add(joint.joint);
-        writer.add(joint.basis);
-        writer.add(joint.axis);
-        writer.add(joint.low);
-        writer.add(joint.high);
-        writer.addAll(joint.knots);
-        writer.add(static_cast<std::uint64_t>(joint.modes));
-        writer.addAll(joint.coefficients);
-        writer.addAll(joint.normalScales);
-    }
-    writer.addAll(correctives.firstEntry);
-    writer.addAll(correctives.entries);
-    writer.addAll(correctives.shares);
-    writer.addAll(correctives.normalShares);
-    return writer.bytes();
+/// Writes shapes to a ByteWriter, or reads them from a ByteReader.
+template <typename Stream, typename Shapes>
+void passShapes(Stream& stream, Shapes& shapes) {
+    stream.list(shapes.notes, [&](auto& note) { stream.text(note); });
+    auto& correctives = shapes.correctives;
+    stream.list(correctives.joints, [&](auto& joint) {
+        stream.value(joint.joint);
+        stream.value(joint.basis);
+        stream.value(joint.axis);
+        stream.value(joint.low);
+        stream.value(joint.high);
+        stream.values(joint.knots);
+        stream.value(joint.modes);
+        stream.values(joint.coefficients);
+        stream.values(joint.normalScales);
+    });
+    stream.values(correctives.firstEntry);
+    stream.values(correctives.entries);
+    stream.values(correctives.shares);
+    stream.values(correctives.normalShares);
 }
 
 bool fromBytes(const std::string& bytes, MadeShapes& shapes) {
     ByteReader reader(bytes);
-    std::uint64_t notes = 0, joints = 0;
-    for (reader.take(notes); notes > 0 && !reader.failed(); --notes)
-        reader.takeText(shapes.notes.emplace_back());
-    for (reader.take(joints); joints > 0 && !reader.failed(); --joints) {
-        CorrectiveJoint& joint = shapes.correctives.joints.emplace_back();
-        reader.take(joint.joint);
-        reader.take(joint.basis);
-        reader.take(joint.axis);
-        reader.take(joint.low);
-        reader.take(joint.high);
-        reader.takeAll(joint.knots);
-        std::uint64_t modes = 0;
-        reader.take(modes);
-        joint.modes = static_cast<std::size_t>(modes);
-        reader.takeAll(joint.coefficients);
-        reader.takeAll(joint.normalScales);
-    }
-    reader.takeAll(shapes.correctives.firstEntry);
-    reader.takeAll(shapes.correctives.entries);
-    reader.takeAll(shapes.correctives.shares);
-    reader.takeAll(shapes.correctives.normalShares);
+    passShapes(reader, shapes);
     return reader.isComplete();
 }
 
@@ -234,7 +223,9 @@ std::optional<MadeShapes> ShapesCache::read(const Binding& binding,
 void ShapesCache::write(const MadeShapes& shapes, std::vector<std::string>& notes) const {
     std::error_code failed;
     fs::create_directories(_folder, failed);
-    const std::string bytes = toBytes(shapes);
+    ByteWriter writer;
+    passShapes(writer, shapes);
+    const std::string& bytes = writer.bytes();
     const std::string beside = _file + '.' + std::to_string(std::random_device{}());
     {
         std::ofstream out(beside, std::ios::binary);
