@@ -110,7 +110,7 @@ void writePicture(const osg::Image& image, const std::string& file) {
         osgDB::getLowerCaseFileExtension(file));
     std::ostringstream encoded;
     if (writer == nullptr || !writer->writeImage(image, encoded, nullptr).success())
-        throw std::runtime_error(file + ": no picture of a format that can be written");
+        throw std::runtime_error(file + ": not a picture format that can be written");
     std::ofstream out(file, std::ios::binary);
     out << encoded.str();
     out.close();

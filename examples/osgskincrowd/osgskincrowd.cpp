@@ -102,8 +102,8 @@ int main(int argc, char** argv) {
     line.add("--threads", threads, "most threads that pose and deform; 0: all processors");
     const auto onCard = line.add(
         "--gpu", gpu, "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
-    const auto toFolder =
-        line.add("--out", out, "write crowd_00.png, ... to this folder; no window to look at");
+    const auto toFolder = line.add(
+        "--out", out, "write crowd_00.png, ... to this folder instead of opening a window");
     line.add("--frames", frames, "frames to write, 60 a second: A, A:B or A:B:STEP")
         .showDefault()
         .needs(toFolder);

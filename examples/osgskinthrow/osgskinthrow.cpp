@@ -54,8 +54,8 @@ int main(int argc, char** argv) {
     std::string out;
     std::string frames;
     line.add("--data", data, "folder of thrower.obj, thrower.bvh and throw.bvh");
-    const auto toFolder =
-        line.add("--out", out, "write throw_00.png, ... to this folder; no window to look at");
+    const auto toFolder = line.add(
+        "--out", out, "write throw_00.png, ... to this folder instead of opening a window");
     line.add("--frames", frames,
              "frames of the motion: A, A:B or A:B:STEP; every twelfth of it by default")
         .needs(toFolder);

@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
     line.add("--bend", arguments.pose.bend, "degrees to start with").range(-150.0, 150.0);
     line.add("--twist", arguments.pose.twist, "degrees to start with").range(-330.0, 330.0);
     line.add("--out", arguments.out,
-             "write pictures of a set of poses to this folder; no window to look at");
+             "write pictures of a set of poses to this folder instead of opening a window");
     line.add("--report", arguments.report, "print the methods' figures; needs no display");
     return line.run(argc, argv, [&] {
         osg::ArgumentParser words(&argc, argv);

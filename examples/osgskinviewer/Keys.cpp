@@ -43,7 +43,7 @@ const char* keysHelp() {
            "- +    slower, faster\n"
            "1 2 3  osgSkin, linear blending, dual quaternions\n"
            "4      osgSkin without shapes\n"
-           "n      normals of the surface, or turned with vertices\n"
+           "n      normals of the surface, or rotated with vertices\n"
            "u      tense all muscles\n"
            "f F    next morph target, last one\n"
            "[ ]    less, more of it     l    list of morph targets\n"

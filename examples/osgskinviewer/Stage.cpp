@@ -403,7 +403,7 @@ std::string Stage::summary() const {
     if (settings.colours == Colours::Bend || settings.colours == Colours::Twist)
         text += std::string(settings.colours == Colours::Bend ? "; bend" : "; twist") +
                 " ratios of " + _figure.body->character.binding.joints[settings.joint].name;
-    if (settings.turnedNormals) text += "; normals turned with vertices";
+    if (settings.turnedNormals) text += "; normals rotated with vertices";
     if (settings.tensed) text += "; muscles tensed";
     if (!_morphs.empty() && _morphs[_morph].second > 0.0f) {
         char weight[16];

@@ -89,8 +89,8 @@ int main(int argc, char** argv) {
     line.add("--keys", keys, "keys to press first; with --out, one before each picture");
     const auto toFolder =
         line.add("--out", out,
-                 "write viewer_00.png, ... to this folder: no window to look at, but an X "
-                 "display (Xvfb will do)");
+                 "write viewer_00.png, ... to this folder instead of opening a window; needs an "
+                 "X display (Xvfb will do)");
     line.add("--times", times, "with --out: say how long each frame and its skin took")
         .needs(toFolder);
     return line.run(argc, argv, [&] {

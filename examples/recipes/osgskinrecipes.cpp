@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     line.add("CHARACTER", file,
              std::string(example::kCharacterHelp) + ", in place of the recipe's own");
     line.add("--list", list, "list the recipes");
-    line.add("--out", out, "write pictures to this folder; no window to look at");
+    line.add("--out", out, "write pictures to this folder instead of opening a window");
     line.add("--characters", samples, "folder for the characters that recipes show").showDefault();
     line.add("--data", data, "folder of the thrower, of whom they are made");
     return line.run(argc, argv, [&] {

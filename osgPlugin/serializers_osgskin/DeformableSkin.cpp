@@ -261,7 +261,7 @@ bool readPose(osgDB::InputStream& is, osgSkin::DeformableSkin& skin) {
     is >> is.END_BRACKET;
     if (is.getException()) return false;
     if (!skin.setPose(skinning.data(), skinning.size()))
-        return fail(is, skin, "a pose with a matrix that is no transform");
+        return fail(is, skin, "a pose with a matrix that is not a transform");
     return true;
 }
 

@@ -165,7 +165,7 @@ TEST(OsgScene, AppliesOptions) {
     EXPECT_NE(region(osgSkin::loadCharacter(file, test::loadOptions("bind=smooth"))), "lower");
 
     const std::string why = test::whyRefused(file, "motion=run");
-    test::expectContains(why, R"("run" is none of the scene's, expected one of "rest", "lean")");
+    test::expectContains(why, R"("run" is not in the scene, expected one of "rest", "lean")");
     test::expectContains(test::whyRefused(file, "motion=" OSGSKIN_TEST_DATA "/character/move.bvh"),
                          "not carried");
 }

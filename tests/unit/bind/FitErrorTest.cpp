@@ -153,7 +153,7 @@ TEST(FitOptionsError, NamesTheLandmark) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     FitOptions options;
     options.landmarks["Nose"] = {0, 1.7, 0.1};
-    EXPECT_NE(complaint(mesh, options).find("landmark Nose is no CMU joint"), std::string::npos);
+    EXPECT_NE(complaint(mesh, options).find("landmark Nose is not a CMU joint"), std::string::npos);
     options.landmarks = {{"Head", {0.0, nan, 0.0}}};
     EXPECT_NE(complaint(mesh, options).find("landmark Head: expected finite"), std::string::npos);
     options.landmarks = {{"Head", {0.0, 2.5, 0.0}}};

@@ -83,7 +83,8 @@ void checkRange(const CorrectiveJoint& joint, const std::string& place) {
 void checkBend(const CorrectiveJoint& joint, const BoundJoint& of, const std::string& place) {
     if (!(std::abs(glm::dot(joint.axis, joint.axis) - 1.0) < 1e-6) ||
         !(std::abs(glm::dot(joint.axis, of.twistAxis)) < 1e-6))
-        throw Error(place + " have an axis that is no unit vector perpendicular to the twist axis");
+        throw Error(place +
+                    " have an axis that is not a unit vector perpendicular to the twist axis");
     checkRange(joint, place);
     checkKnots(joint, place);
 }
@@ -106,7 +107,7 @@ void checkJoint(const CorrectiveJoint& joint, const Correctives& correctives,
                               (input ? "input \"" + correctives.inputs[joint.joint]
                                      : "joint \"" + bound[joint.joint].name) +
                               "\"";
-    if (joint.basis > Basis::TurnedHinge) throw Error(place + " have functions of no known kind");
+    if (joint.basis > Basis::TurnedHinge) throw Error(place + " have functions of an unknown kind");
     if (input)
         checkInput(joint, place);
     else

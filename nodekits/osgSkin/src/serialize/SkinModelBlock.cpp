@@ -182,7 +182,8 @@ void takeCorrectives(BlockReader& in, SkinModel& model) {
             range.joint = in.word();
             range.firstBlock = in.word();
             range.blockCount = in.word();
-            if (range.joint >= from.joints.size()) in.fail("correctives name no joint's modes");
+            if (range.joint >= from.joints.size())
+                in.fail("correctives refer to a joint without modes");
             rows += std::size_t{range.blockCount} * 3 * from.joints[range.joint].modes;
             from.ranges.push_back(range);
         }

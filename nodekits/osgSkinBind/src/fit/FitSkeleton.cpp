@@ -243,7 +243,7 @@ void check(const FitOptions& options, const SkinMesh& mesh) {
     const std::vector<std::string>& names = fittedJointNames();
     for (const auto& [name, centre] : options.landmarks) {
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw Error("cannot fit a skeleton: landmark " + name + " is no CMU joint" +
+            throw Error("cannot fit a skeleton: landmark " + name + " is not a CMU joint" +
                         expectedNames(name, names));
         if (!isFinite(centre))
             throw Error("cannot fit a skeleton: landmark " + name +

@@ -102,7 +102,7 @@ void putFirst(const std::string& wanted, const std::string& file,
                         list.begin() + std::ptrdiff_t(a) + 1);
             return;
         }
-    throw Error(file + ": motion \"" + wanted + "\" is none of the scene's" +
+    throw Error(file + ": motion \"" + wanted + "\" is not in the scene" +
                 (names.empty() ? ", which has none" : expectedNames(wanted, names)) +
                 "; motion files are not carried over to scenes that OpenSceneGraph reads");
 }
@@ -276,7 +276,7 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     const ReadLimits limits = ReadLimits::of(options.readOptions.get());
     limits.checkFormat(file);
     if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))
-        throw Error(file + ": no regular file, expected neither pipe nor device");
+        throw Error(file + ": not a regular file");
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
     putBonesFirst(*scene);
     ConvertOptions convert = convertOptionsOf(options);

@@ -248,8 +248,7 @@ std::vector<Option> makeTable() {
              "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
             "extension,extension"),
         readingOption({"images", "none",
-                       "images that OpenSceneGraph reads, from trusted files, beside those of "
-                       "formats, as ktx,dds"},
+                       "more image formats, read by OpenSceneGraph; for trusted files, as ktx,dds"},
                       "extension,extension"),
         readingOption({"maxFileMB", number(limits.fileMegabytes), "megabytes of any file"}),
         readingOption({"maxTextMB", number(limits.textMegabytes),
@@ -257,17 +256,17 @@ std::vector<Option> makeTable() {
         readingOption({"maxJoints", number(limits.joints), "joints of a skeleton"}),
         readingOption({"maxDepth", number(limits.depth), "joints or nodes below each other"}),
         readingOption({"maxSamples", number(limits.samples),
-                       "joints times frames of all motions, beside one for every two bytes of "
-                       "their files"}),
+                       "joints times frames of all motions, in addition to one for every two "
+                       "bytes of their files"}),
         readingOption({"maxUses", number(limits.uses),
                        "how often motions and props of a .skin file name the same file"}),
         readingOption({"maxRatios", number(limits.ratios), "joints times vertices of a body"}),
         readingOption({"maxInfluences", number(limits.influences),
-                       "joints that vertices follow, of all vertices together, beside 25 for every "
-                       "vertex"}),
+                       "joints that vertices follow, of all vertices together, in addition to 25 "
+                       "for every vertex"}),
         readingOption({"maxPixels", number(limits.pixels),
-                       "pixels of a model's pictures, beside sixteen for every byte of their "
-                       "files"}),
+                       "pixels of a model's images, in addition to sixteen for every byte of "
+                       "their files"}),
     };
 }
 

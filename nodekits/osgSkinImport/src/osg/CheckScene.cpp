@@ -349,7 +349,7 @@ void checkScene(osg::Node& scene, const std::string& path) {
     for (const osg::Drawable* drawable : objects.drawables)
         if (hasRigBox(*drawable))
             failFile(path, "drawable " + inQuotes(drawable->getName()) +
-                               " has the bounding box callback of a rig, but is no rig");
+                               " has the bounding box callback of a rig, but is not a rig");
     if (objects.hasNullAnimation) failFile(path, "a null animation");
     for (osgAnimation::Animation* animation : objects.animations) {
         const std::string wrong = animationError(*animation);
