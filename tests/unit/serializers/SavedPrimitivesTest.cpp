@@ -93,7 +93,7 @@ TEST(RestArrays, TooShortForTheirBindingAreRefused) {
         }
 }
 
-TEST(SavedPrimitives, IndicesPastTheLastVertexAreBroken) {
+TEST(SavedPrimitives, RejectIndicesPastTheLastVertex) {
     for (const unsigned int last : {2u, 3u}) {
         const osg::ref_ptr<osg::DrawElementsUShort> elements =
             new osg::DrawElementsUShort(GL_TRIANGLES);
