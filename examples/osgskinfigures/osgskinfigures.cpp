@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
     line.add("--weights", weights,
              "painted weights (JSON) for the peers; without: from our ratios");
     line.add("--elastic", elastic,
-             "a column with elastic shapes, too; solving them takes half a minute, once");
+             "a column with elastic shapes, too; solving them takes a few seconds, once");
     line.add("CHARACTER", file, example::kCharacterHelp);
     return line.run(argc, argv, [&] {
         line.parse(argc, argv);

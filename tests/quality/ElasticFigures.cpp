@@ -143,10 +143,9 @@ private:
     void line(const ElasticSample& sample, std::size_t number) {
         const bool between = number >= _reference.fitted;
         const glm::dvec3 axis = glm::axis(sample.rotation);
-        std::printf("%c %5.1f %5.2f %5.2f %5.2f %c| %4d %5.2f %6.3f |", between ? '~' : ' ',
-                    glm::degrees(glm::angle(sample.rotation)), axis.x, axis.y, axis.z,
-                    sample.converged ? ' ' : '!', sample.steps, sample.leastJacobian,
-                    sample.volumeRatio);
+        std::printf("%c %5.1f %5.2f %5.2f %5.2f | %4d %5.2f %6.3f |", between ? '~' : ' ',
+                    glm::degrees(glm::angle(sample.rotation)), axis.x, axis.y, axis.z, sample.steps,
+                    sample.leastJacobian, sample.volumeRatio);
         if (sample.positions.empty()) {
             std::printf(" %s\n", sample.reason.c_str());
             return;
@@ -356,8 +355,9 @@ ReferenceJoint referenceJointOf(const Subject& shaped, const std::string& name) 
         joint.samples = osgSkin::hingeSamples(range, bound.twistAxis);
         between = betweenHinges(joint.samples, functions.axis);
     } else {
-        joint.samples = osgSkin::ballSamples(bound.twistAxis, angleOf(functions.high.x));
-        between = betweenBalls(glm::normalize(glm::axis(joint.samples.front())), bound.twistAxis);
+        joint.samples =
+            osgSkin::ballSamples(bound.twistAxis, functions.axis, angleOf(functions.high.x));
+        between = betweenBalls(functions.axis, bound.twistAxis);
     }
     reference.fitted = joint.samples.size();
     joint.samples.insert(joint.samples.end(), between.begin(), between.end());

@@ -2,7 +2,9 @@
 //
 // The elastic solver's components, each on its own.
 #include "ElasticTube.h"
+#include "elastic/CountCrossings.h"
 #include "elastic/JointSolid.h"
+#include "elastic/Minimise.h"
 #include "elastic/Preconditioner.h"
 #include "elastic/SolveElastic.h"
 #include "elastic/solid/CellEnergy.h"
@@ -71,6 +73,29 @@ TEST(RestSkin, KnowsDistancesAndLeavesOutTrianglesWithoutArea) {
     EXPECT_NEAR(nearest.shares.sum(), 1.0, 1e-12);
     EXPECT_LT(nearest.triangle, tube.triangles.size() - 1);
     EXPECT_NEAR(nearest.distance, std::hypot(0.2, 1.5) - 1.0, 0.03);
+}
+
+TEST(RestSkin, IsClosedIfItHasNoBorder) {
+    const ElasticTube closed, open(1.0, glm::dvec3(0.0), false);
+    EXPECT_TRUE(RestSkin(pointsOf(closed), closed.triangles).isClosed());
+    EXPECT_FALSE(RestSkin(pointsOf(open), open.triangles).isClosed());
+    ElasticTube other = closed;
+    std::swap(other.triangles[5][0], other.triangles[5][1]); // faces inwards
+    EXPECT_FALSE(RestSkin(pointsOf(other), other.triangles).isClosed());
+}
+
+TEST(CountCrossings, CountsPairsThatMeetElsewhereThanAtSharedCorners) {
+    Points points(3, 6);
+    points << 0, 1, 0, 0.2, 0.3, 0.2, //
+        0, 0, 1, 0.2, 0.2, 0.3,       //
+        0, 0, 0, -1, 1, 1;
+    EXPECT_EQ(countCrossings({{0, 1, 2}, {3, 4, 5}}, points), 1u);
+    EXPECT_EQ(countCrossings({{0, 1, 2}, {0, 4, 5}}, points), 0u) << "shares a corner";
+    EXPECT_EQ(countCrossings({{0, 1, 2}, {0, 1, 4}}, points), 0u) << "shares an edge";
+    points.col(4) << 0.3, 0.3, -1;
+    EXPECT_EQ(countCrossings({{0, 1, 2}, {0, 4, 5}}, points), 1u) << "a corner, and elsewhere";
+    points.rightCols(3).colwise() += Point(3, 0, 0);
+    EXPECT_EQ(countCrossings({{0, 1, 2}, {3, 4, 5}}, points), 0u) << "far apart";
 }
 
 TEST(VoxelLattice, FillsTheTubeAndEmbedsItsSkinExactly) {
@@ -194,8 +219,8 @@ TEST(Preconditioner, SolvesItsSystem) {
     cores.value(lattice.rest(), goals, atRest);
     cores.value(lattice.rest() + way, goals, moved);
     EXPECT_LT(atRest.cwiseAbs().maxCoeff(), 1e-9);
-    const Points found = preconditioner.solve(gradient + moved);
-    EXPECT_LT((found - way).leftCols(lattice.freeNodes()).cwiseAbs().maxCoeff(), 1e-9);
+    const Points found = preconditioner.solve((gradient + moved).cast<float>()).cast<double>();
+    EXPECT_LT((found - way).leftCols(lattice.freeNodes()).cwiseAbs().maxCoeff(), 1e-4);
     EXPECT_EQ(found.rightCols(found.cols() - lattice.freeNodes()).cwiseAbs().maxCoeff(), 0.0);
 }
 
@@ -224,9 +249,10 @@ protected:
         Points nodes = lattice.rest();
         nodes.row(0) *= factor;
         nodes.row(2) *= factor;
-        Points gradient = Points::Zero(3, nodes.cols());
+        const Points skin = patch.positions(nodes);
+        Points gradient = Points::Zero(3, skin.cols());
         const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Point::UnitX()));
-        return outer.value(nodes, outer.posed(turn), gradient);
+        return outer.value(skin, outer.posed(turn), gradient);
     }
 
     ElasticTube tube;
@@ -250,19 +276,20 @@ TEST_F(OuterSkinTest, IsFreeAtRestAndHeldWhereItSwellsOrCavesIn) {
 TEST_F(OuterSkinTest, PullsAsItsEnergyGrowsAndOnTheOuterSideAlone) {
     const OuterSkin outer(patch, points, bones, &core, OuterSizes());
     std::mt19937 random(7);
-    Points nodes = 1.08 * lattice.rest(), way = nodes;
+    const Points rested = patch.positions(lattice.rest()), skin = 1.08 * rested;
+    Points way = skin;
     for (Eigen::Index i = 0; i < way.cols(); ++i) way.col(i) = randomPoint(random, 1.0);
     const auto turned = outer.posed(Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Point::UnitX())));
-    Points gradient = Points::Zero(3, nodes.cols()), unused = gradient;
-    outer.value(nodes, turned, gradient);
+    Points gradient = Points::Zero(3, skin.cols()), unused = gradient;
+    outer.value(skin, turned, gradient);
     const double step = 1e-5;
-    const double growth = (outer.value(nodes + step * way, turned, unused) -
-                           outer.value(nodes - step * way, turned, unused)) /
+    const double growth = (outer.value(skin + step * way, turned, unused) -
+                           outer.value(skin - step * way, turned, unused)) /
                           (2.0 * step);
     EXPECT_NEAR(gradient.cwiseProduct(way).sum(), growth, 1e-4 * std::abs(growth));
     EXPECT_GT(std::abs(growth), 0.1);
-    for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
-        const Point at = lattice.rest().col(i);
+    for (Eigen::Index i = 0; i < skin.cols(); ++i) {
+        const Point at = rested.col(i);
         if (at.z() < 0.7 && std::abs(at.y()) < 2.5) continue;
         EXPECT_EQ(gradient.col(i).norm(), 0.0) << at.transpose();
     }
@@ -278,7 +305,7 @@ TEST(Minimise, FindsTheMinimumOfACurvedValley) {
         gradient(1, 0) = 200.0 * off;
         return (1.0 - x) * (1.0 - x) + 100.0 * off * off;
     };
-    energy.precondition = [](const Points& gradient) { return gradient; };
+    energy.precondition = [](const Directions& gradient) { return gradient; };
     Points at(3, 1);
     at << -1.2, 1.0, 0.0;
     MinimiseLimits limits;
@@ -303,7 +330,7 @@ TEST(Minimise, StaysWhereTheEnergyIsDefined) {
         gradient(0, 0) = 1.0 - 1.0 / x;
         return x - std::log(x);
     };
-    energy.precondition = [](const Points& gradient) { return Points(100.0 * gradient); };
+    energy.precondition = [](const Directions& gradient) { return Directions(100.0f * gradient); };
     Points at = Points::Zero(3, 1);
     at(0, 0) = 5.0;
     EXPECT_TRUE(minimise(energy, at, MinimiseLimits()).converged);
@@ -347,8 +374,10 @@ TEST(ElasticSamples, OfAHingeReachBothEndsInSmallSteps) {
 
 TEST(ElasticSamples, OfABallJointGoAllAround) {
     const glm::dvec3 pole = glm::normalize(glm::dvec3(1, 2, 3));
-    const auto samples = ballSamples(pole, glm::radians(90.0));
+    const glm::dvec3 across = glm::normalize(glm::cross(pole, glm::dvec3(0, 0, 1)));
+    const auto samples = ballSamples(pole, across, glm::radians(90.0));
     ASSERT_EQ(samples.size(), 24u);
+    EXPECT_NEAR(glm::dot(glm::axis(samples.front()), across), 1.0, 1e-12);
     glm::dvec3 sum(0.0);
     double most = 0.0;
     for (const glm::dquat& q : samples) {
@@ -374,15 +403,16 @@ CellBatch cellOf(const Map& map) {
     for (std::size_t c = 0; c < CellShape::kCorners; ++c) {
         const Point p = map(kEdge * Point(double(c & 1u), double(c >> 1 & 1u), double(c >> 2)));
         for (std::size_t i = 0; i < 3; ++i)
-            for (double& corner : batch.corner[i][c]) corner = p[static_cast<Eigen::Index>(i)];
+            for (float& corner : batch.corner[i][c])
+                corner = static_cast<float>(p[static_cast<Eigen::Index>(i)]);
     }
     return batch;
 }
 
 double energyOf(const CellShape& shape, const Flesh& flesh, CellBatch batch) {
     EXPECT_TRUE(cellEnergies(shape, flesh, batch));
-    for (const double energy : batch.energy) EXPECT_EQ(energy, batch.energy[0]);
-    return batch.energy[0];
+    for (const float energy : batch.energy) EXPECT_EQ(energy, batch.energy[0]);
+    return static_cast<double>(batch.energy[0]);
 }
 
 } // namespace
@@ -391,12 +421,13 @@ TEST(CellEnergy, IsNothingForACellThatOnlyMoves) {
     const CellShape shape(kEdge);
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(2.0, Point(1, 2, -1).normalized()).toRotationMatrix();
-    CellBatch batch = cellOf([&](const Point& p) { return Point(turn * p + Point(3, 1, 2)); });
+    CellBatch batch =
+        cellOf([&](const Point& p) { return Point(turn * p + Point(0.3, 0.1, 0.2)); });
     ASSERT_TRUE(cellEnergies(shape, Flesh(), batch));
-    for (const double energy : batch.energy) EXPECT_NEAR(energy, 0.0, 1e-12);
+    for (const float energy : batch.energy) EXPECT_NEAR(energy, 0.0f, 1e-6f);
     for (const auto& along : batch.gradient)
         for (const auto& corner : along)
-            for (const double slope : corner) EXPECT_NEAR(slope, 0.0, 1e-10);
+            for (const float slope : corner) EXPECT_NEAR(slope, 0.0f, 1e-5f);
 }
 
 // tr S of F = R S from the quartic's root, compared with singular values.
@@ -414,7 +445,7 @@ TEST(CellEnergy, IsTheDistanceToTheNearestRotation) {
         const double expected =
             kEdge * kEdge * kEdge * (s - Point::Ones()).squaredNorm(); // |F - R|^2
         const CellBatch batch = cellOf([&](const Point& p) { return Point(f * p); });
-        EXPECT_NEAR(energyOf(shape, kNoBulk, batch), expected, 1e-9) << f;
+        EXPECT_NEAR(energyOf(shape, kNoBulk, batch), expected, 2e-6) << f;
     }
 }
 
@@ -435,17 +466,17 @@ TEST(CellEnergy, GradientIsTheSlopeOfTheValue) {
                 batch.corner[i][c][lane] = one.corner[i][c][0];
     }
     ASSERT_TRUE(cellEnergies(shape, flesh, batch));
-    constexpr double kStep = 1e-6;
+    constexpr float kStep = 2e-3f;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t c = 0; c < CellShape::kCorners; ++c) {
             CellBatch up = batch, down = batch;
-            for (double& corner : up.corner[i][c]) corner += kStep;
-            for (double& corner : down.corner[i][c]) corner -= kStep;
+            for (float& corner : up.corner[i][c]) corner += kStep;
+            for (float& corner : down.corner[i][c]) corner -= kStep;
             ASSERT_TRUE(cellEnergies(shape, flesh, up));
             ASSERT_TRUE(cellEnergies(shape, flesh, down));
             for (std::size_t lane = 0; lane < CellBatch::kCells; ++lane) {
-                const double slope = (up.energy[lane] - down.energy[lane]) / (2.0 * kStep);
-                EXPECT_NEAR(batch.gradient[i][c][lane], slope, 1e-6 * (1.0 + std::abs(slope)));
+                const float slope = (up.energy[lane] - down.energy[lane]) / (2.0f * kStep);
+                EXPECT_NEAR(batch.gradient[i][c][lane], slope, 1e-3f * (1.0f + std::abs(slope)));
             }
         }
 }
@@ -458,14 +489,14 @@ TEST(CellEnergy, IsInfiniteForAnInvertedCell) {
     EXPECT_FALSE(cellEnergies(shape, Flesh(), flat));
     // One lane is enough.
     CellBatch batch = cellOf([](const Point& p) { return p; });
-    for (std::size_t c = 0; c < CellShape::kCorners; ++c) batch.corner[0][c][5] *= -1.0;
+    for (std::size_t c = 0; c < CellShape::kCorners; ++c) batch.corner[0][c][5] *= -1.0f;
     EXPECT_FALSE(cellEnergies(shape, Flesh(), batch));
 }
 
 TEST(CellEnergy, BarrierGrowsWithoutEndTowardsFlatness) {
     const CellShape shape(kEdge);
     double before = 0.0;
-    for (const double thickness : {0.4, 0.1, 0.01, 1e-4, 1e-8}) {
+    for (const double thickness : {0.4, 0.1, 0.01, 1e-4, 1e-6}) {
         Flesh flesh{0.0, 10.0, 0.5};
         const CellBatch batch =
             cellOf([&](const Point& p) { return Point(thickness * p.x(), p.y(), p.z()); });
@@ -474,5 +505,5 @@ TEST(CellEnergy, BarrierGrowsWithoutEndTowardsFlatness) {
         before = barrier;
     }
     const double volume = kEdge * kEdge * kEdge;
-    EXPECT_NEAR(before, -10.0 * volume * 0.25 * std::log(2e-8), 1e-5); // -(J - J0)^2 ln(J / J0)
+    EXPECT_NEAR(before, -10.0 * volume * 0.25 * std::log(2e-6), 1e-4); // -(J - J0)^2 ln(J / J0)
 }

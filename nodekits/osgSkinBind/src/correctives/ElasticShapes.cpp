@@ -75,7 +75,7 @@ double angleOf(double sineOfHalf) {
 std::vector<glm::dquat> samplesOf(const ShapedJoint& shaped) {
     const CorrectiveJoint& functions = shaped.functions;
     if (functions.basis != Basis::Hinge)
-        return ballSamples(shaped.twistAxis, angleOf(functions.high.x));
+        return ballSamples(shaped.twistAxis, functions.axis, angleOf(functions.high.x));
     HingeRange range;
     range.axis = functions.axis;
     range.restFlexion = std::atan2(glm::dot(glm::cross(shaped.above, shaped.bone), functions.axis),

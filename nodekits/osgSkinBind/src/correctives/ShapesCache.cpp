@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be increased whenever the same input gives other shapes than before, or the format changes.
-constexpr std::uint32_t kMakerVersion = 10;
+constexpr std::uint32_t kMakerVersion = 11;
 
 /// Limits the size of a file: up to eight joints correct a vertex, with 400 bytes each. The data
 /// that does not depend on the vertices counts as kFixedVertices more.

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elastic/JointSolid.h"
 
+#include "elastic/CountCrossings.h"
 #include "elastic/Preconditioner.h"
 #include "elastic/solid/Energies.h"
 #include "elastic/solid/FoldContact.h"
 #include "elastic/solid/SkinPatch.h"
 #include "elastic/solid/VoxelLattice.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -25,47 +24,24 @@
 namespace osgSkin::elastic {
 namespace {
 
-constexpr std::size_t kHistory = 8;
-constexpr double kEnoughDescent = 1e-4; ///< share of the descent that the slope predicts
-constexpr int kMaxHalvings = 20;
-/// The preconditioner underestimates the curvature, so its whole steps would overshoot.
-constexpr double kCurvatureShare = 0.25;
-
-constexpr int kRestingSteps = 3; ///< number of successive small steps that count as rest
-
-double dot(const Points& a, const Points& b) {
-    return a.cwiseProduct(b).sum();
-}
-
-struct Pair {
-    Points step, change; ///< of the points and of the gradient
-    double curvature = 0.0;
-};
-
-Points direction(const Energy& energy, const std::deque<Pair>& pairs, const Points& gradient) {
-    Points q = gradient;
-    std::vector<double> shares(pairs.size());
-    for (std::size_t i = pairs.size(); i-- > 0;) {
-        shares[i] = dot(pairs[i].step, q) / pairs[i].curvature;
-        q -= shares[i] * pairs[i].change;
-    }
-    Points r = kCurvatureShare * energy.precondition(q);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        r += (shares[i] - dot(pairs[i].change, r) / pairs[i].curvature) * pairs[i].step;
-    return -r;
-}
-
 /// A step whose first guess inverts a cell is halved, but not below this, radians.
 constexpr double kSmallestTurn = 0.02;
+
+/// The share of a step's change that the next step's first guess has: wholly, rounding errors would
+/// grow from step to step. Less than kMaxLonger as long, and about nearly the same axis (cosine).
+constexpr double kExtrapolated = 0.5, kMaxLonger = 1.5, kSameAxis = 0.9;
+
+/// Bones are ignored that are farther from the joint, in reaches.
+constexpr double kBonesWithin = 1.5;
 
 /// Tolerance of a state's rotation, radians.
 constexpr double kThere = 1e-9;
 
 /// Parameters of the solid, in units of the limb's radius and the flesh's mu.
 struct SolidOptions {
-    double edge = 1.0 / 3.0;                 ///< of the cells
-    double reach = 4.0;                      ///< of the lattice
-    double largestTurn = 0.2617993877991494; ///< of one step, radians: 15 degrees
+    double edge = 1.0 / 3.0;     ///< of the cells
+    double reach = 4.0;          ///< of the lattice
+    double largestTurn = 0.5236; ///< of one step, radians: 30 degrees
     Flesh flesh;
     double fascia =
         1.0; ///< mu / r^2 per volume; if less, deep folds slide; if more, they stay plain
@@ -90,25 +66,25 @@ public:
     struct State {
         Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
         Points nodes;
+        /// The last step's rotation, and how far the shape is from the one before, rotated.
+        Eigen::AngleAxisd lastTurn = Eigen::AngleAxisd::Identity();
+        Points missed;
         bool tangled = false; ///< further bending would invert a cell
-        bool stopped = false; ///< the caller of bend() stopped it
-        bool converged = true;
-        int steps = 0; ///< of the minimiser
+        int steps = 0;        ///< of the minimiser
     };
 
     State rest() const;
 
     /// Bends to another rotation in small steps.
-    /// \param goOn called after each step; returns false to stop; may throw
-    State bend(const State& from, const Eigen::Quaterniond& to,
-               const std::function<bool(const State&)>& goOn) const;
+    State bend(const State& from, const Eigen::Quaterniond& to) const;
 
     const VoxelLattice& lattice() const { return _lattice; }
     const SkinPatch& patch() const { return _patch; }
     const ElasticBody& body() const { return _body; }
 
 private:
-    Points guess(const State& from, const Eigen::Quaterniond& to) const;
+    Points rotated(const State& from, const Eigen::Quaterniond& to) const;
+    Points extrapolated(const State& from, const Eigen::Quaterniond& step) const;
     bool defined(const Points& nodes) const;
 
     SolidOptions _options;
@@ -135,6 +111,7 @@ public:
 private:
     Point toJoint(const glm::dvec3& point) const;
     glm::dvec3 fromJoint(const Point& point) const;
+    std::vector<Eigen::Quaterniond> rotations() const;
     void prepare(ElasticShapes& shapes);
     /// A sample, and additional ones that replace it if it is bad.
     struct Solved {
@@ -153,32 +130,16 @@ private:
     /// Pairs of intersecting triangles beyond those at rest.
     std::size_t crossings(const Points& posed) const;
     std::size_t plainCrossings(const Eigen::Quaterniond& rotation) const;
-    bool isHopeless(const JointSolid::State& state) const;
 
     const ElasticSkin& _skin;
     const ElasticJoint& _joint;
     SharedProgress& _progress;
-    std::vector<Eigen::Quaterniond> _rotations; ///< the samples', unit
+    Eigen::Quaterniond _axes;                   ///< from the axes of rest space to joint space's
+    std::vector<Eigen::Quaterniond> _rotations; ///< the samples', joint space, unit
     SampleTree _tree;
     std::unique_ptr<const JointSolid> _solid;
     std::size_t _crossingsAtRest = 0;
 };
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-
-/// Pairs of intersecting triangles. A third triangle at an edge is ignored.
-std::size_t countCrossings(const RestSkin::Triangles& triangles, const Points& positions) {
-    Surface surface;
-    for (Eigen::Index v = 0; v < positions.cols(); ++v)
-        surface.add_vertex({positions(0, v), positions(1, v), positions(2, v)});
-    for (const auto& [a, b, c] : triangles)
-        surface.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b),
-                         Surface::Vertex_index(c));
-    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
-    CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(pairs));
-    return pairs.size();
-}
 
 using Clock = std::chrono::steady_clock;
 
@@ -203,11 +164,23 @@ bool areHopeless(std::size_t crossings, std::size_t plainCrossings) {
     return crossings > kManyCrossings && crossings > plainCrossings;
 }
 
-std::vector<Eigen::Quaterniond> rotationsOf(const ElasticJoint& joint) {
-    std::vector<Eigen::Quaterniond> result;
+/// The axes of joint space: y along the bone that moves, x across it along the first sample's axis.
+/// So a rotated body has the same cells.
+Eigen::Quaterniond axesOf(const ElasticJoint& joint) {
+    Point along = Point::Zero(), across = Point::Zero();
+    for (const ElasticBone& bone : joint.bones)
+        if (bone.moves && glm::distance(bone.from, joint.centre) < kAtCentre * joint.radius &&
+            glm::distance(bone.to, joint.centre) > along.norm())
+            along = toEigen(bone.to - joint.centre);
     for (const glm::dquat& q : joint.samples)
-        result.push_back(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
-    return result;
+        if (across.isZero(kThere)) across = (q.w < 0.0 ? -1.0 : 1.0) * Point(q.x, q.y, q.z);
+    if (!(along.norm() > 0.0)) return Eigen::Quaterniond::Identity();
+    Eigen::Matrix3d rows;
+    rows.row(1) = along.normalized();
+    across -= across.dot(rows.row(1)) * rows.row(1).transpose();
+    rows.row(0) = across.isZero(kThere) ? along.unitOrthogonal() : across.normalized();
+    rows.row(2) = rows.row(0).cross(rows.row(1));
+    return Eigen::Quaterniond(rows);
 }
 
 JointSolid::JointSolid(Points skin, RestSkin::Triangles triangles,
@@ -224,6 +197,7 @@ JointSolid::JointSolid(Points skin, RestSkin::Triangles triangles,
 JointSolid::State JointSolid::rest() const {
     State state;
     state.nodes = _lattice.rest();
+    state.missed = Points::Zero(3, state.nodes.cols());
     return state;
 }
 
@@ -232,7 +206,8 @@ bool JointSolid::defined(const Points& nodes) const {
     return std::isfinite(_body.value(nodes, gradient));
 }
 
-Points JointSolid::guess(const State& from, const Eigen::Quaterniond& to) const {
+/// A state's nodes, rotated on by their ratios.
+Points JointSolid::rotated(const State& from, const Eigen::Quaterniond& to) const {
     Points nodes = turned(from.nodes, _ratios, to * from.turn.conjugate());
     // Steps about different axes do not add up, so rotate pinned nodes by the whole rotation.
     const Eigen::Index pinned = nodes.cols() - _lattice.freeNodes();
@@ -240,8 +215,16 @@ Points JointSolid::guess(const State& from, const Eigen::Quaterniond& to) const 
     return nodes;
 }
 
-JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& to,
-                                   const std::function<bool(const State&)>& goOn) const {
+/// How far the shape will be from rotated() after a step, judged by the last one.
+Points JointSolid::extrapolated(const State& from, const Eigen::Quaterniond& step) const {
+    const Eigen::AngleAxisd next(step);
+    if (!(from.lastTurn.angle() > 0.0) || from.lastTurn.axis().dot(next.axis()) < kSameAxis)
+        return Points::Zero(3, from.nodes.cols());
+    const double share = kExtrapolated * std::min(kMaxLonger, next.angle() / from.lastTurn.angle());
+    return share * turned(from.missed, _ratios, step);
+}
+
+JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& to) const {
     FoldContact contact(_fold);
     State state = from;
     state.steps = 0;
@@ -250,7 +233,10 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
     while (left > kThere) {
         const double step = left / std::ceil(left / largest - 1e-9);
         const Eigen::Quaterniond next = state.turn.slerp(step / left, to);
-        Points nodes = guess(state, next);
+        const Eigen::Quaterniond turn = next * state.turn.conjugate();
+        const Points start = rotated(state, next);
+        Points nodes = start + extrapolated(state, turn);
+        if (!defined(nodes)) nodes = start;
         if (!defined(nodes)) {
             largest = 0.5 * step;
             if (largest >= kSmallestTurn) continue;
@@ -260,37 +246,46 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
         const Points goals = _cores.goals(next);
         const std::vector<Bone> bones = _outer.posed(next);
         const Points plain = turned(_lattice.rest(), _ratios, next);
-        contact.restart();
+        Points pull(3, static_cast<Eigen::Index>(_patch.vertices().size()));
         Energy energy;
         energy.value = [&](const Points& at, Points& gradient) {
             gradient.setZero();
             double value = _body.value(at, gradient);
             if (!std::isfinite(value)) return value;
+            pull.setZero();
+            const Points skin = _patch.positions(at);
             value += _cores.value(at, goals, gradient) + _fascia.value(at, plain, gradient) +
-                     _outer.value(at, bones, gradient) + contact.value(at, gradient);
+                     _outer.value(skin, bones, pull) + contact.value(skin, pull);
+            _patch.spread(pull, gradient);
             gradient.rightCols(at.cols() - _lattice.freeNodes()).setZero();
             return value;
         };
-        energy.precondition = [this](const Points& gradient) {
+        energy.precondition = [this](const Directions& gradient) {
             return _preconditioner.solve(gradient);
         };
         energy.renew = [&contact](const Points& at) { contact.detect(at); };
-        const MinimiseResult result = minimise(energy, nodes, _options.limits);
+        state.steps += minimise(energy, nodes, _options.limits).steps;
+        state.missed = nodes - start;
+        state.lastTurn = turn;
         state.nodes = std::move(nodes);
         state.turn = next;
-        state.converged = result.converged;
-        state.steps += result.steps;
         left = state.turn.angularDistance(to);
-        state.stopped = !goOn(state) && left > kThere;
-        if (state.stopped) break;
     }
     return state;
 }
 
 JointSolving::JointSolving(const ElasticSkin& skin, const ElasticJoint& joint,
                            SharedProgress& progress)
-    : _skin(skin), _joint(joint), _progress(progress), _rotations(rotationsOf(joint)),
-      _tree(_rotations) {}
+    : _skin(skin), _joint(joint), _progress(progress), _axes(axesOf(joint)),
+      _rotations(rotations()), _tree(_rotations) {}
+
+std::vector<Eigen::Quaterniond> JointSolving::rotations() const {
+    std::vector<Eigen::Quaterniond> result;
+    for (const glm::dquat& q : _joint.samples)
+        result.push_back(
+            (_axes * Eigen::Quaterniond(q.w, q.x, q.y, q.z) * _axes.conjugate()).normalized());
+    return result;
+}
 
 ElasticShapes JointSolving::run() {
     const auto start = Clock::now();
@@ -314,12 +309,11 @@ ElasticShapes JointSolving::run() {
 }
 
 Point JointSolving::toJoint(const glm::dvec3& point) const {
-    const glm::dvec3 p = (point - _joint.centre) / _joint.radius;
-    return {p.x, p.y, p.z};
+    return _axes * toEigen((point - _joint.centre) / _joint.radius);
 }
 
 glm::dvec3 JointSolving::fromJoint(const Point& point) const {
-    return _joint.centre + _joint.radius * glm::dvec3(point.x(), point.y(), point.z());
+    return _joint.centre + _joint.radius * toGlm(_axes.conjugate() * point);
 }
 
 void JointSolving::prepare(ElasticShapes& shapes) {
@@ -331,10 +325,13 @@ void JointSolving::prepare(ElasticShapes& shapes) {
     for (std::size_t v = 0; v < _skin.positions.size(); ++v)
         skin.col(static_cast<Eigen::Index>(v)) = toJoint(_skin.positions[v]);
     std::vector<Bone> bones;
-    for (const ElasticBone& bone : _joint.bones)
-        bones.push_back({toJoint(bone.from), toJoint(bone.to), bone.moves});
     SolidOptions options;
     options.reach = _joint.hinge ? ElasticJoint::kHingeReach : ElasticJoint::kBallReach;
+    for (const ElasticBone& bone : _joint.bones) {
+        const Bone near{toJoint(bone.from), toJoint(bone.to), bone.moves};
+        if (nearestOn(near, Point::Zero()).norm() < kBonesWithin * options.reach)
+            bones.push_back(near);
+    }
     std::optional<HingeCore> hinge;
     if (_joint.hinge) hinge = hingeCore(skin, bones, _rotations, options.hinge);
     _solid = std::make_unique<const JointSolid>(std::move(skin), _skin.triangles, _joint.ratios,
@@ -360,8 +357,7 @@ void JointSolving::follow(std::size_t from, const JointSolid::State& state,
         const JointSolid::State there = bend(state, rotation, solved.sample);
         if (good && !solved.sample.reason.empty()) solved.before = approach(state, rotation);
         _progress.done(_joint.name);
-        if (there.tangled || there.stopped ||
-            areHopeless(solved.sample.crossings, solved.sample.plainCrossings))
+        if (there.tangled || areHopeless(solved.sample.crossings, solved.sample.plainCrossings))
             leaveOut(next[i], samples);
         else
             follow(next[i], there, samples);
@@ -404,10 +400,8 @@ std::vector<ElasticSample> JointSolving::approach(JointSolid::State from,
 JointSolid::State JointSolving::bend(const JointSolid::State& from, const Eigen::Quaterniond& to,
                                      ElasticSample& sample) const {
     const auto start = Clock::now();
-    JointSolid::State there = _solid->bend(from, to, [this](const JointSolid::State& state) {
-        _progress.check();
-        return state.converged || !isHopeless(state);
-    });
+    _progress.check();
+    JointSolid::State there = _solid->bend(from, to);
     sample = sampleOf(there, to);
     sample.seconds = since(start);
     return there;
@@ -416,15 +410,11 @@ JointSolid::State JointSolving::bend(const JointSolid::State& from, const Eigen:
 ElasticSample JointSolving::sampleOf(const JointSolid::State& state,
                                      const Eigen::Quaterniond& rotation) const {
     ElasticSample sample;
-    sample.rotation = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
-    sample.converged = state.converged && !state.tangled && !state.stopped;
+    const Eigen::Quaterniond own = _axes.conjugate() * rotation * _axes;
+    sample.rotation = {own.w(), own.x(), own.y(), own.z()};
     sample.steps = state.steps;
     if (state.tangled) {
         sample.reason = "its cells invert before this bend";
-        return sample;
-    }
-    if (state.stopped) {
-        sample.reason = "the solid intersects itself before this bend";
         return sample;
     }
     const SkinPatch& patch = _solid->patch();
@@ -436,7 +426,7 @@ ElasticSample JointSolving::sampleOf(const JointSolid::State& state,
     sample.volumeRatio = volumes.whole;
 
     sample.crossings = crossings(posed);
-    sample.plainCrossings = plainCrossings(rotation);
+    if (sample.crossings > kFewCrossings) sample.plainCrossings = plainCrossings(rotation);
     const double share = kCrossingsShare * static_cast<double>(sample.plainCrossings);
     if (sample.crossings > kFewCrossings && static_cast<double>(sample.crossings) > share)
         sample.reason = std::to_string(sample.crossings) + " pairs of triangles intersect";
@@ -455,63 +445,7 @@ std::size_t JointSolving::plainCrossings(const Eigen::Quaterniond& rotation) con
     return crossings(turned(patch.positions(_solid->rest().nodes), ratios, rotation));
 }
 
-bool JointSolving::isHopeless(const JointSolid::State& state) const {
-    const std::size_t own = crossings(_solid->patch().positions(state.nodes));
-    return areHopeless(own, plainCrossings(state.turn));
-}
-
 } // namespace
-
-MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimits& limits) {
-    MinimiseResult result;
-    Points gradient(3, points.cols());
-    double value = energy.value(points, gradient);
-    std::deque<Pair> pairs;
-    int resting = 0;
-    for (; result.steps < limits.mostSteps && resting < kRestingSteps; ++result.steps) {
-        if (energy.renew && result.steps % limits.renewEvery == 0) {
-            energy.renew(points);
-            value = energy.value(points, gradient);
-        }
-        Points way = direction(energy, pairs, gradient);
-        double slope = dot(way, gradient);
-        if (!(slope < 0.0)) { // the pairs are from another energy
-            pairs.clear();
-            way = direction(energy, pairs, gradient);
-            slope = dot(way, gradient);
-        }
-        if (!(slope < 0.0)) {
-            if (slope == 0.0) resting = kRestingSteps; // no gradient is left
-            break;
-        }
-        Points next, nextGradient(3, points.cols());
-        double nextValue = 0.0, length = 1.0;
-        int halvings = 0;
-        for (; halvings < kMaxHalvings; ++halvings, length *= 0.5) {
-            next = points + length * way;
-            nextValue = energy.value(next, nextGradient);
-            if (nextValue <= value + kEnoughDescent * length * slope) break;
-        }
-        if (halvings == kMaxHalvings) {
-            if (pairs.empty()) break;
-            pairs.clear();
-            continue;
-        }
-        Pair pair{next - points, nextGradient - gradient, 0.0};
-        pair.curvature = dot(pair.step, pair.change);
-        const double largest = std::sqrt(pair.step.colwise().squaredNorm().maxCoeff());
-        resting = largest < limits.smallStep ? resting + 1 : 0;
-        if (pair.curvature > 1e-12 * pair.step.squaredNorm()) {
-            pairs.push_back(std::move(pair));
-            if (pairs.size() > kHistory) pairs.pop_front();
-        }
-        points.swap(next);
-        gradient.swap(nextGradient);
-        value = nextValue;
-    }
-    result.converged = resting == kRestingSteps;
-    return result;
-}
 
 SampleTree::SampleTree(const std::vector<Eigen::Quaterniond>& rotations)
     : _following(rotations.size() + 1) {

@@ -21,10 +21,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<double, BlockedFactor::kStride>;
+using Tag = hn::CappedTag<float, BlockedFactor::kStride>;
 using V = hn::Vec<Tag>;
 
-HWY_INLINE double* at(double* x, int unknown) {
+HWY_INLINE float* at(float* x, int unknown) {
     return x + BlockedFactor::kStride * static_cast<std::size_t>(unknown);
 }
 
@@ -34,10 +34,10 @@ HWY_INLINE constexpr int triangleAt(int row, int column) {
 
 /// Solves L y = b in a block and updates the unknowns below.
 template <int kColumns>
-HWY_INLINE void forward(const BlockedFactor::Block& block, const int* rows, const double* values,
-                        double* x) {
+HWY_INLINE void forward(const BlockedFactor::Block& block, const int* rows, const float* values,
+                        float* x) {
     const Tag d;
-    const double* triangle = values + kColumns;
+    const float* triangle = values + kColumns;
     V own[kColumns];
     for (int c = 0; c < kColumns; ++c) {
         own[c] = hn::Load(d, at(x, block.first + c));
@@ -46,9 +46,9 @@ HWY_INLINE void forward(const BlockedFactor::Block& block, const int* rows, cons
         own[c] = hn::Mul(own[c], hn::Set(d, values[c]));
         hn::Store(own[c], d, at(x, block.first + c));
     }
-    const double* value = triangle + triangleAt(kColumns, 0);
+    const float* value = triangle + triangleAt(kColumns, 0);
     for (int r = block.firstRow; r < block.endRow; ++r, value += kColumns) {
-        double* other = at(x, rows[r]);
+        float* other = at(x, rows[r]);
         V sum = hn::Load(d, other);
         for (int c = 0; c < kColumns; ++c) sum = hn::NegMulAdd(hn::Set(d, value[c]), own[c], sum);
         hn::Store(sum, d, other);
@@ -57,13 +57,13 @@ HWY_INLINE void forward(const BlockedFactor::Block& block, const int* rows, cons
 
 /// Solves L^T x = y in a block.
 template <int kColumns>
-HWY_INLINE void backward(const BlockedFactor::Block& block, const int* rows, const double* values,
-                         double* x) {
+HWY_INLINE void backward(const BlockedFactor::Block& block, const int* rows, const float* values,
+                         float* x) {
     const Tag d;
-    const double* triangle = values + kColumns;
+    const float* triangle = values + kColumns;
     V own[kColumns];
     for (int c = 0; c < kColumns; ++c) own[c] = hn::Load(d, at(x, block.first + c));
-    const double* value = triangle + triangleAt(kColumns, 0);
+    const float* value = triangle + triangleAt(kColumns, 0);
     for (int r = block.firstRow; r < block.endRow; ++r, value += kColumns) {
         const V other = hn::Load(d, at(x, rows[r]));
         for (int c = 0; c < kColumns; ++c)
@@ -77,12 +77,12 @@ HWY_INLINE void backward(const BlockedFactor::Block& block, const int* rows, con
     }
 }
 
-void solveAll(const BlockedFactor& factor, double* unknowns) {
+void solveAll(const BlockedFactor& factor, float* unknowns) {
     const int* rows = factor.rows.data();
     for (std::size_t lane = 0; lane < 3; lane += hn::Lanes(Tag())) {
-        double* x = unknowns + lane;
+        float* x = unknowns + lane;
         for (const BlockedFactor::Block& block : factor.blocks) {
-            const double* values = factor.values.data() + block.firstValue;
+            const float* values = factor.values.data() + block.firstValue;
             switch (block.columns) {
             case 1:
                 forward<1>(block, rows, values, x);
@@ -99,7 +99,7 @@ void solveAll(const BlockedFactor& factor, double* unknowns) {
         }
         for (std::size_t i = factor.blocks.size(); i-- > 0;) {
             const BlockedFactor::Block& block = factor.blocks[i];
-            const double* values = factor.values.data() + block.firstValue;
+            const float* values = factor.values.data() + block.firstValue;
             switch (block.columns) {
             case 1:
                 backward<1>(block, rows, values, x);
@@ -169,11 +169,12 @@ BlockedFactor::BlockedFactor(const Eigen::SparseMatrix<double>& lower) {
                     lower.innerIndexPtr() + starts[last + 1]);
         block.endRow = static_cast<int>(rows.size());
         block.firstValue = values.size();
-        for (int c = column; c <= last; ++c) values.push_back(1.0 / of[starts[c]]);
+        for (int c = column; c <= last; ++c) values.push_back(float(1.0 / of[starts[c]]));
         for (int row = column + 1; row <= last; ++row)
-            for (int c = column; c < row; ++c) values.push_back(of[starts[c] + row - c]);
+            for (int c = column; c < row; ++c) values.push_back(float(of[starts[c] + row - c]));
         for (int r = 0; r < block.endRow - block.firstRow; ++r)
-            for (int c = column; c <= last; ++c) values.push_back(of[starts[c] + last - c + 1 + r]);
+            for (int c = column; c <= last; ++c)
+                values.push_back(float(of[starts[c] + last - c + 1 + r]));
         blocks.push_back(block);
         column = last + 1;
     }
@@ -181,7 +182,7 @@ BlockedFactor::BlockedFactor(const Eigen::SparseMatrix<double>& lower) {
 
 HWY_EXPORT(solveAll);
 
-void BlockedFactor::solve(double* x) const {
+void BlockedFactor::solve(float* x) const {
     HWY_DYNAMIC_DISPATCH(solveAll)(*this, x);
 }
 
@@ -207,16 +208,16 @@ Preconditioner::Preconditioner(const VoxelLattice& lattice, const BoneCores& cor
     _place.assign(order.data(), order.data() + order.size());
 }
 
-Points Preconditioner::solve(const Points& gradient) const {
+Directions Preconditioner::solve(const Directions& gradient) const {
     constexpr std::size_t kStride = BlockedFactor::kStride;
-    const auto x = hwy::AllocateAligned<double>(kStride * _place.size());
+    const auto x = hwy::AllocateAligned<float>(kStride * _place.size());
     for (std::size_t i = 0; i < _place.size(); ++i) {
-        double* const to = &x[kStride * static_cast<std::size_t>(_place[i])];
+        float* const to = &x[kStride * static_cast<std::size_t>(_place[i])];
         std::copy_n(gradient.data() + 3 * i, 3, to);
-        to[3] = 0.0;
+        to[3] = 0.0f;
     }
     _factor.solve(x.get());
-    Points result = Points::Zero(3, gradient.cols());
+    Directions result = Directions::Zero(3, gradient.cols());
     for (std::size_t i = 0; i < _place.size(); ++i)
         std::copy_n(&x[kStride * static_cast<std::size_t>(_place[i])], 3, result.data() + 3 * i);
     return result;

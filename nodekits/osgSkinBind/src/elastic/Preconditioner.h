@@ -2,6 +2,7 @@
 #ifndef OSGSKINBIND_ELASTIC_PRECONDITIONER_H
 #define OSGSKINBIND_ELASTIC_PRECONDITIONER_H
 
+#include "elastic/Minimise.h"
 #include "elastic/solid/Energies.h"
 #include "elastic/solid/VoxelLattice.h"
 
@@ -14,10 +15,10 @@ namespace osgSkin::elastic {
 
 /// A sparse Cholesky factor L whose neighbouring columns of equal structure form blocks
 /// (supernodes: Davis 2006, section 4.8), so that solving reads and writes each unknown once for
-/// up to four columns.
+/// up to four columns. In single precision: it only guides the minimiser.
 struct BlockedFactor {
     static constexpr int kMaxColumns = 4;
-    /// Doubles per unknown: three right sides and one for padding.
+    /// Floats per unknown: three right sides and one for padding.
     static constexpr std::size_t kStride = 4;
 
     struct Block {
@@ -28,7 +29,7 @@ struct BlockedFactor {
     std::vector<Block> blocks;
     std::vector<int> rows; ///< below the blocks' triangles
     /// For each block the inverse of its diagonal, its triangle row by row, and its rows.
-    std::vector<double> values;
+    std::vector<float> values;
 
     BlockedFactor() = default;
 
@@ -36,8 +37,8 @@ struct BlockedFactor {
     explicit BlockedFactor(const Eigen::SparseMatrix<double>& lower);
 
     /// Solves L L^T x = b for three right sides at once.
-    /// \param x kStride numbers for each unknown, aligned to 32 bytes; b on entry
-    void solve(double* x) const;
+    /// \param x kStride numbers for each unknown, aligned to 16 bytes; b on entry
+    void solve(float* x) const;
 };
 
 /// The lattice's Laplacian plus the bone cores, factored once: the part of the Hessian that never
@@ -48,7 +49,7 @@ public:
     Preconditioner(const VoxelLattice& lattice, const BoneCores& cores);
 
     /// Displacement of the free nodes for a gradient; pinned nodes get none.
-    Points solve(const Points& gradient) const;
+    Directions solve(const Directions& gradient) const;
 
 private:
     Eigen::Index _free = 0;

@@ -79,14 +79,6 @@ double reachOf(const ElasticJoint& joint) {
     return joint.radius * (joint.hinge ? ElasticJoint::kHingeReach : ElasticJoint::kBallReach);
 }
 
-Point toEigen(const glm::dvec3& p) {
-    return {p.x, p.y, p.z};
-}
-
-glm::dvec3 toGlm(const Point& p) {
-    return {p.x(), p.y(), p.z()};
-}
-
 bool isWithin(const ElasticBone& bone, const ElasticJoint& joint) {
     const glm::dvec3 along = bone.to - bone.from;
     const double square = glm::dot(along, along);
@@ -260,10 +252,8 @@ std::vector<Mirror> mirrorsOf(const ElasticSkin& skin, const std::vector<Elastic
     std::vector<Mirror> mirrors(joints.size());
     if (joints.size() < 2 || skin.triangles.empty()) return mirrors;
     elastic::Points positions(3, static_cast<Eigen::Index>(skin.positions.size()));
-    for (std::size_t v = 0; v < skin.positions.size(); ++v) {
-        const glm::dvec3& p = skin.positions[v];
-        positions.col(static_cast<Eigen::Index>(v)) << p.x, p.y, p.z;
-    }
+    for (std::size_t v = 0; v < skin.positions.size(); ++v)
+        positions.col(static_cast<Eigen::Index>(v)) = elastic::toEigen(skin.positions[v]);
     const elastic::RestSkin rest(std::move(positions), skin.triangles);
     std::vector<bool> taken(joints.size(), false);
     for (std::size_t i = 1; i < joints.size(); ++i)
@@ -291,14 +281,11 @@ std::vector<glm::dquat> hingeSamples(const HingeRange& range, const glm::dvec3& 
     return samples;
 }
 
-std::vector<glm::dquat> ballSamples(const glm::dvec3& pole, double most) {
-    const glm::dvec3 beside =
-        std::abs(pole.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 first = glm::normalize(beside - pole * glm::dot(beside, pole));
+std::vector<glm::dquat> ballSamples(const glm::dvec3& pole, const glm::dvec3& across, double most) {
     std::vector<glm::dquat> samples;
     for (int direction = 0; direction < kDirections; ++direction) {
         const double turn = 2.0 * glm::pi<double>() * direction / kDirections;
-        const glm::dvec3 axis = glm::angleAxis(turn, pole) * first;
+        const glm::dvec3 axis = glm::angleAxis(turn, pole) * across;
         for (int i = 1; i <= kAngles; ++i)
             samples.push_back(glm::angleAxis(most * i / kAngles, axis));
     }

@@ -54,14 +54,13 @@ struct ElasticSample {
     std::string reason;
     std::vector<glm::dvec3> positions; ///< of ElasticShapes::vertices, rest space, parent at rest
 
-    bool converged = false; ///< if not, the shape is hardly improved by more steps
-    int steps = 0;          ///< of the minimiser, from the previous sample
-    /// Pairs of intersecting triangles within reach beyond those at rest, here and in the plain
-    /// skin.
+    int steps = 0; ///< of the minimiser, from the previous sample
+    /// Pairs of intersecting triangles within reach beyond those at rest, and, where they are not
+    /// few, those of the plain skin.
     std::size_t crossings = 0, plainCrossings = 0;
     double leastJacobian = 0.0; ///< smallest volume ratio at a Gauss point; above 0
     double volumeRatio = 0.0;   ///< of all flesh, posed over rest
-    double seconds = 0.0;       ///< of CPU time
+    double seconds = 0.0;       ///< of the thread that solved it
 };
 
 /// The result of solveElasticJoint().
@@ -75,7 +74,7 @@ struct ElasticShapes {
     /// Those of ElasticJoint::samples, then additional ones at smaller bends that replace bad ones.
     std::vector<ElasticSample> samples;
     std::size_t cells = 0, nodes = 0; ///< of the lattice
-    double seconds = 0.0;             ///< of CPU time
+    double seconds = 0.0;             ///< the sum of its samples'
 };
 
 /// The range and rest pose of a hinge, radians.
@@ -94,8 +93,9 @@ std::vector<glm::dquat> hingeSamples(const HingeRange& range, const glm::dvec3& 
 
 /// The rotations to solve a ball joint at: three angles in each of eight directions.
 /// \param pole unit; from the joint to its child
+/// \param across unit, perpendicular to the pole: the first direction's axis
 /// \param most the largest angle, radians
-std::vector<glm::dquat> ballSamples(const glm::dvec3& pole, double most);
+std::vector<glm::dquat> ballSamples(const glm::dvec3& pole, const glm::dvec3& across, double most);
 
 /// Finds the shapes of the flesh around a joint by an elastic solid of voxel cells, a third of the
 /// limb's radius wide, with bones as soft cores and contact in the fold. Its rim is pinned to the

@@ -17,15 +17,15 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<double, CellBatch::kCells>;
+using Tag = hn::CappedTag<float, CellBatch::kCells>;
 using V = hn::Vec<Tag>;
 
 /// Newton steps to the sum of singular values; from above it converges in three or four.
 constexpr int kMaxSteps = 12;
-constexpr double kExact = 1e-10; ///< relative: the next step would be far below rounding
+constexpr double kExact = 1e-6; ///< relative: the next step would be far below rounding
 
 HWY_INLINE V all(double x) {
-    return hn::Set(Tag(), x);
+    return hn::Set(Tag(), static_cast<float>(x));
 }
 
 /// From values at an edge's ends to those at its two Gauss points, by linear interpolation. The

@@ -14,14 +14,15 @@ struct Flesh {
 };
 
 /// Values of several cells side by side, one cell a SIMD lane. All lanes must be set; copy a cell
-/// to unused ones.
+/// to unused ones. Positions are relative to a point of the cell: they are rounded to single
+/// precision.
 struct CellBatch {
-    static constexpr std::size_t kCells = 8;
+    static constexpr std::size_t kCells = 16;
     static constexpr std::size_t kAlignment = 64;
 
-    alignas(kAlignment) double corner[3][CellShape::kCorners][kCells];   ///< positions
-    alignas(kAlignment) double gradient[3][CellShape::kCorners][kCells]; ///< of each cell's energy
-    alignas(kAlignment) double energy[kCells];
+    alignas(kAlignment) float corner[3][CellShape::kCorners][kCells];   ///< positions
+    alignas(kAlignment) float gradient[3][CellShape::kCorners][kCells]; ///< of each cell's energy
+    alignas(kAlignment) float energy[kCells];
 };
 
 /// Elastic energies of cells and their gradients: as-rigid-as-possible |F - R|^2 at the Gauss

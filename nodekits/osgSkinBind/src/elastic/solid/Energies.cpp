@@ -10,7 +10,6 @@
 namespace osgSkin::elastic {
 namespace {
 
-constexpr double kAtCentre = 1e-3;  ///< bones that begin this near to the joint belong to it
 constexpr double kSkinWithin = 2.0; ///< largest distance of the outer side's skin
 
 Point outwardsOf(const std::vector<Bone>& bones, const std::vector<Eigen::Quaterniond>& rotations,
@@ -66,6 +65,8 @@ BoneCores::BoneCores(const VoxelLattice& lattice, const RestSkin& skin,
     const double stiffness = sizes.stiffness * lattice.shape().volumeOfPoint();
     for (std::uint32_t i = 0; i < lattice.cells().size(); ++i) {
         const VoxelLattice::Cell& cell = lattice.cells()[i];
+        const Point middle = cell.low + Point::Constant(0.5 * lattice.shape().edge);
+        const double deep = skin.distance(middle) + lattice.shape().edge;
         for (std::uint32_t g = 0; g < CellShape::kPoints; ++g) {
             const Point at = lattice.gaussPoint(cell, g);
             if (hinge && hinge->contains(at)) {
@@ -81,7 +82,9 @@ BoneCores::BoneCores(const VoxelLattice& lattice, const RestSkin& skin,
                 nearest = away;
                 moves = bone.moves;
             }
-            if (nearest * (1.0 - sizes.thickness) < sizes.thickness * skin.distance(at))
+            // No point of the cell is deeper than `deep`.
+            const double share = nearest * (1.0 - sizes.thickness) / sizes.thickness;
+            if (share < deep && share < skin.distance(at))
                 _held.push_back({i, g, at, stiffness, moves ? 1.0 : 0.0});
         }
     }
@@ -114,20 +117,22 @@ double ElasticBody::value(const Points& nodes, Points& gradient) const {
     const std::vector<VoxelLattice::Cell>& cells = _lattice.cells();
     double energy = 0.0;
     CellBatch batch;
-    for (std::size_t first = 0; first < cells.size(); first += CellBatch::kCells) {
-        const std::size_t count = std::min(CellBatch::kCells, cells.size() - first);
+    for (std::size_t begin = 0; begin < cells.size(); begin += CellBatch::kCells) {
+        const std::size_t count = std::min(CellBatch::kCells, cells.size() - begin);
         for (std::size_t lane = 0; lane < CellBatch::kCells; ++lane) {
-            const auto& of = cells[first + std::min(lane, count - 1)].nodes;
+            const auto& of = cells[begin + std::min(lane, count - 1)].nodes;
+            const double* first = nodes.data() + std::size_t{3} * of[0];
             for (std::size_t c = 0; c < CellShape::kCorners; ++c) {
                 const double* node = nodes.data() + std::size_t{3} * of[c];
-                for (std::size_t i = 0; i < 3; ++i) batch.corner[i][c][lane] = node[i];
+                for (std::size_t i = 0; i < 3; ++i)
+                    batch.corner[i][c][lane] = static_cast<float>(node[i] - first[i]);
             }
         }
         if (!cellEnergies(_lattice.shape(), _flesh, batch))
             return std::numeric_limits<double>::infinity();
         for (std::size_t lane = 0; lane < count; ++lane) {
             energy += batch.energy[lane];
-            const auto& of = cells[first + lane].nodes;
+            const auto& of = cells[begin + lane].nodes;
             for (std::size_t c = 0; c < CellShape::kCorners; ++c) {
                 double* node = gradient.data() + std::size_t{3} * of[c];
                 for (std::size_t i = 0; i < 3; ++i) node[i] += batch.gradient[i][c][lane];
@@ -177,7 +182,7 @@ double Fascia::value(const Points& nodes, const Points& goals, Points& gradient)
 
 OuterSkin::OuterSkin(const SkinPatch& patch, const Points& skin, const std::vector<Bone>& bones,
                      const HingeCore* hinge, const OuterSizes& sizes)
-    : _patch(patch), _sizes(sizes), _bones(bones) {
+    : _sizes(sizes), _bones(bones) {
     if (!hinge || !(hinge->outwards.norm() > 0.0) || bones.empty()) return;
     std::vector<double> areas(patch.vertices().size(), 0.0);
     for (const auto& triangle : patch.triangles()) {
@@ -206,11 +211,8 @@ std::vector<Bone> OuterSkin::posed(const Eigen::Quaterniond& turn) const {
     return bones;
 }
 
-double OuterSkin::value(const Points& nodes, const std::vector<Bone>& posed,
+double OuterSkin::value(const Points& skin, const std::vector<Bone>& posed,
                         Points& gradient) const {
-    if (_held.empty()) return 0.0;
-    const Points skin = _patch.positions(nodes);
-    Points pull = Points::Zero(3, skin.cols());
     double energy = 0.0;
     for (const Held& held : _held) {
         const auto column = static_cast<Eigen::Index>(held.vertex);
@@ -220,9 +222,8 @@ double OuterSkin::value(const Points& nodes, const std::vector<Bone>& posed,
                                                     _sizes.most * held.distance);
         if (tooFar == 0.0 || !(distance > 0.0)) continue;
         energy += 0.5 * held.stiffness * tooFar * tooFar;
-        pull.col(column) = held.stiffness * tooFar / distance * off;
+        gradient.col(column) += held.stiffness * tooFar / distance * off;
     }
-    _patch.spread(pull, gradient);
     return energy;
 }
 

@@ -20,6 +20,9 @@ struct Bone {
     bool moves = false; ///< with the joint, not with its parent
 };
 
+/// Bones that begin this near to the joint belong to it, radii.
+constexpr double kAtCentre = 1e-3;
+
 inline Point nearestOn(const Bone& bone, const Point& p) {
     const Point along = bone.to - bone.from;
     const double square = along.squaredNorm();
@@ -151,8 +154,8 @@ public:
     /// The bones when the joint is rotated.
     std::vector<Bone> posed(const Eigen::Quaterniond& turn) const;
 
-    /// Energy of the nodes' positions; its gradient is added.
-    double value(const Points& nodes, const std::vector<Bone>& posed, Points& gradient) const;
+    /// Energy of the patch's positions; its gradient is added.
+    double value(const Points& skin, const std::vector<Bone>& posed, Points& gradient) const;
 
 private:
     struct Held {
@@ -161,7 +164,6 @@ private:
         double stiffness = 0.0; ///< times area
     };
 
-    const SkinPatch& _patch;
     OuterSizes _sizes;
     std::vector<Bone> _bones;
     std::vector<Held> _held;

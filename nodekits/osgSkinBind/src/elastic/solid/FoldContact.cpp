@@ -14,8 +14,12 @@ constexpr double kBinEdges = 1.0; ///< a bin's size in cells' edges
 constexpr int kNewtonSteps = 6;
 constexpr double kWithin = 1e-6;
 
-/// Points farther from a cell's centre, in edges, are not in the cell.
-constexpr double kFar = 3.5;
+/// Points farther from a cell's centre, in edges, are not in the cell: at a Newton step, and at the
+/// first guess.
+constexpr double kFar = 3.5, kFirstFar = 1.2;
+
+/// Boxes of cells are wider than the cells, so that rounding loses no point.
+constexpr float kRoom = 1e-5f;
 
 /// Tolerance for rounding: a conservative test comes before the exact one.
 constexpr double kSpare = 0.999;
@@ -31,17 +35,15 @@ constexpr double kOnEdge = 1e-6;
 /// and faces it fully below the second.
 constexpr double kAcross = 0.3, kFacing = -0.5;
 
-/// Contacts with less weight are removed.
-constexpr double kMinWeight = 0.01;
-
 } // namespace
 
 DeformedCells::DeformedCells(const VoxelLattice& lattice, const Points& nodes)
     : _binSize(kBinEdges * lattice.shape().edge) {
-    _boxes.reserve(lattice.cells().size());
+    std::vector<Eigen::AlignedBox3d> boxes;
+    boxes.reserve(lattice.cells().size());
     _maps.reserve(lattice.cells().size());
     for (const VoxelLattice::Cell& cell : lattice.cells()) {
-        Eigen::AlignedBox3d& box = _boxes.emplace_back();
+        Eigen::AlignedBox3d& box = boxes.emplace_back();
         for (const std::uint32_t node : cell.nodes) box.extend(nodes.col(node));
         _bounds.extend(box);
         const auto corner = [&](std::size_t c) { return nodes.col(cell.nodes[c]); };
@@ -54,22 +56,36 @@ DeformedCells::DeformedCells(const VoxelLattice& lattice, const Points& nodes)
         map.yz = corner(6) - corner(4) - map.y;
         map.zx = corner(5) - corner(4) - map.x;
         map.xyz = corner(7) - corner(6) - corner(5) + corner(4) - map.xy;
+        map.middle = map.at + 0.5 * (map.x + map.y + map.z) + 0.25 * (map.xy + map.yz + map.zx) +
+                     0.125 * map.xyz;
+        Eigen::Matrix3d slope;
+        slope << map.x + 0.5 * (map.xy + map.zx) + 0.25 * map.xyz,
+            map.y + 0.5 * (map.xy + map.yz) + 0.25 * map.xyz,
+            map.z + 0.5 * (map.yz + map.zx) + 0.25 * map.xyz;
+        map.inverse = slope.inverse();
     }
     _bins = (_bounds.sizes() / _binSize).array().floor().cast<int>() + 1;
     _first.assign(index(_bins - Eigen::Vector3i::Ones()) + 2, 0);
-    const auto forEachBin = [this](const Eigen::AlignedBox3d& box, const auto& visit) {
-        const Eigen::Vector3i low = binAt(box.min()), high = binAt(box.max());
-        for (int z = low.z(); z <= high.z(); ++z)
-            for (int y = low.y(); y <= high.y(); ++y)
-                for (int x = low.x(); x <= high.x(); ++x) visit(index({x, y, z}));
+    const auto forEachBin = [&](const auto& visit) {
+        for (std::uint32_t cell = 0; cell < boxes.size(); ++cell)
+            anyBin(boxes[cell], [&](std::size_t bin) {
+                visit(bin, cell);
+                return false;
+            });
     };
-    for (const Eigen::AlignedBox3d& box : _boxes)
-        forEachBin(box, [this](std::size_t bin) { ++_first[bin + 1]; });
+    forEachBin([this](std::size_t bin, std::uint32_t) { ++_first[bin + 1]; });
     for (std::size_t bin = 1; bin < _first.size(); ++bin) _first[bin] += _first[bin - 1];
-    _cells.resize(_first.back());
+    _entries.resize(_first.back());
     std::vector<std::uint32_t> next(_first.begin(), _first.end() - 1);
-    for (std::uint32_t cell = 0; cell < _boxes.size(); ++cell)
-        forEachBin(_boxes[cell], [&](std::size_t bin) { _cells[next[bin]++] = cell; });
+    forEachBin([&](std::size_t bin, std::uint32_t cell) {
+        Entry& entry = _entries[next[bin]++];
+        entry.cell = cell;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<Eigen::Index>(k);
+            entry.low[k] = static_cast<float>(boxes[cell].min()[axis]) - kRoom;
+            entry.high[k] = static_cast<float>(boxes[cell].max()[axis]) + kRoom;
+        }
+    });
 }
 
 Eigen::Vector3i DeformedCells::binAt(const Point& point) const {
@@ -86,7 +102,8 @@ std::size_t DeformedCells::index(const Eigen::Vector3i& bin) const {
 bool DeformedCells::locate(std::uint32_t index, const Point& point, Point& local) const {
     const Map& map = _maps[index];
     const Point target = point - map.at;
-    local.setConstant(0.5);
+    local = Point::Constant(0.5) + map.inverse * (point - map.middle);
+    if (!((local.array() - 0.5).abs().maxCoeff() < kFirstFar)) return false;
     for (int step = 0; step < kNewtonSteps; ++step) {
         const double x = local.x(), y = local.y(), z = local.z();
         const Point byZ = map.z + x * map.zx + y * map.yz + x * y * map.xyz;
@@ -122,6 +139,7 @@ FoldSkin::FoldSkin(const VoxelLattice& lattice, const RestSkin& skin, const Skin
 void FoldSkin::placeProbes() {
     for (std::uint32_t t = 0; t < _patch.triangles().size(); ++t) {
         const auto& [a, b, c] = _patch.triangles()[t];
+        std::vector<Probe>& probes = _probes.emplace_back();
         const Point one = _rest.col(b) - _rest.col(a), other = _rest.col(c) - _rest.col(a);
         const double longest = std::max({one.norm(), other.norm(), (other - one).norm()});
         const int rows = std::max(1, static_cast<int>(std::ceil(longest / _sizes.spacing)));
@@ -134,7 +152,7 @@ void FoldSkin::placeProbes() {
                     if (u + v > 1.0) continue;
                     const Point shares(1.0 - u - v, u, v);
                     const Point at = u * one + v * other + _rest.col(a);
-                    _probes.push_back({t, shares, at, area, ratioOn(t, shares)});
+                    probes.push_back({shares, at, area, ratioOn(t, shares)});
                 }
     }
 }
@@ -155,12 +173,12 @@ void FoldSkin::RatioSpan::extend(const RatioSpan& other) {
     high = std::max(high, other.high);
 }
 
-bool FoldSkin::mayTouch(const Probe& probe, const RatioSpan& flesh) const {
-    return std::max(flesh.high - probe.ratio, probe.ratio - flesh.low) >= kSpare * _sizes.sides;
+bool FoldSkin::mayTouch(const RatioSpan& skin, const RatioSpan& flesh) const {
+    return std::max(flesh.high - skin.low, skin.high - flesh.low) >= kSpare * _sizes.sides;
 }
 
 bool FoldSkin::mayTouch(const Probe& probe, std::uint32_t cell) const {
-    if (!mayTouch(probe, _ratiosOf[cell])) return false;
+    if (!mayTouch({probe.ratio, probe.ratio}, _ratiosOf[cell])) return false;
     const Point from = _lattice.cells()[cell].low - probe.rest;
     const Point to = from.array() + _lattice.shape().edge;
     const double apart = kSpare * _sizes.apart;
@@ -196,47 +214,52 @@ Point FoldContact::on(std::uint32_t triangle, const Point& shares, const Points&
     return shares[0] * vertices.col(a) + shares[1] * vertices.col(b) + shares[2] * vertices.col(c);
 }
 
-void FoldContact::restart() {
-    _touches.clear();
-    _detections = 0;
-}
-
 void FoldContact::detect(const Points& nodes) {
-    const ContactSizes& sizes = _skin.sizes();
-    const Points vertices = _skin.patch().positions(nodes);
-    Flesh flesh{DeformedCells(_skin.lattice(), nodes), {}, _skin.patch().normals(vertices)};
+    Flesh flesh{DeformedCells(_skin.lattice(), nodes), {}, _skin.patch().positions(nodes), {}};
+    flesh.normals = _skin.patch().normals(flesh.vertices);
     for (std::size_t bin = 0; bin < flesh.cells.bins(); ++bin) {
         FoldSkin::RatioSpan& span = flesh.ratios.emplace_back();
         flesh.cells.forEachIn(bin, [&](std::uint32_t cell) { span.extend(_skin.ratiosOf(cell)); });
     }
-    ++_detections;
-    const double share = _detections <= sizes.fresh
-                             ? 1.0
-                             : std::max(sizes.leastShare, 1.0 / (_detections - sizes.fresh + 1));
-    for (Touch& touch : _touches) {
-        touch.weight *= 1.0 - share;
-        touch.stiffness *= 1.0 - share;
-    }
-    _touches.erase(std::remove_if(_touches.begin(), _touches.end(),
-                                  [](const Touch& touch) { return touch.weight < kMinWeight; }),
-                   _touches.end());
-    for (const Probe& probe : _skin.probes()) {
-        const Point here = on(probe.triangle, probe.shares, vertices);
-        const Point normal = on(probe.triangle, probe.shares, flesh.normals).normalized();
-        Touch found;
-        if (!look(probe, here, flesh, found) &&
-            !look(probe, here + (sizes.gap + sizes.margin) * normal, flesh, found))
-            continue;
-        found.weight = share;
-        found.stiffness = share * sizes.stiffness * probe.area;
-        _touches.push_back(found);
-    }
+    _touches.clear();
+    for (std::uint32_t t = 0; t < _skin.probes().size(); ++t)
+        if (mayTouch(t, flesh))
+            for (const Probe& each : _skin.probes()[t]) probe(t, each, flesh);
 }
 
-bool FoldContact::look(const Probe& probe, const Point& at, const Flesh& flesh,
-                       Touch& result) const {
+/// Whether flesh of the other side is near a triangle.
+bool FoldContact::mayTouch(std::uint32_t triangle, const Flesh& flesh) const {
+    const double ahead = _skin.sizes().gap + _skin.sizes().margin;
+    Eigen::AlignedBox3d box;
+    FoldSkin::RatioSpan own;
+    for (const std::uint32_t corner : _skin.patch().triangles()[triangle]) {
+        box.extend(flesh.vertices.col(corner));
+        box.extend(flesh.vertices.col(corner) + ahead * flesh.normals.col(corner));
+        const double ratio = _skin.patch().ratios()[corner];
+        own.extend({ratio, ratio});
+    }
+    return flesh.cells.anyBin(
+        box, [&](std::size_t bin) { return _skin.mayTouch(own, flesh.ratios[bin]); });
+}
+
+void FoldContact::probe(std::uint32_t triangle, const Probe& probe, const Flesh& flesh) {
+    const ContactSizes& sizes = _skin.sizes();
+    const Point here = on(triangle, probe.shares, flesh.vertices);
+    const Point normal = on(triangle, probe.shares, flesh.normals).normalized();
+    Touch found;
+    if (!look(triangle, probe, here, normal, flesh, found) &&
+        !look(triangle, probe, here + (sizes.gap + sizes.margin) * normal, normal, flesh, found))
+        return;
+    found.stiffness = sizes.stiffness * probe.area;
+    _touches.push_back(found);
+}
+
+bool FoldContact::look(std::uint32_t triangle, const Probe& probe, const Point& at,
+                       const Point& normal, const Flesh& flesh, Touch& result) const {
     const std::size_t bin = flesh.cells.binOf(at);
-    if (bin == DeformedCells::kNoBin || !_skin.mayTouch(probe, flesh.ratios[bin])) return false;
+    if (bin == DeformedCells::kNoBin ||
+        !_skin.mayTouch({probe.ratio, probe.ratio}, flesh.ratios[bin]))
+        return false;
     const ContactSizes& sizes = _skin.sizes();
     bool touches = false;
     const auto mayTouch = [&](std::uint32_t cell) { return _skin.mayTouch(probe, cell); };
@@ -245,14 +268,15 @@ bool FoldContact::look(const Probe& probe, const Point& at, const Flesh& flesh,
         const VoxelLattice& lattice = _skin.lattice();
         const Point rest = lattice.cells()[cell].low + lattice.shape().edge * local;
         if ((rest - probe.rest).norm() < sizes.apart) return false;
-        touches = touch(probe, rest, flesh.normals, result);
+        touches = touch(triangle, probe, rest, normal, flesh, result);
         return touches;
     });
     return touches;
 }
 
-bool FoldContact::touch(const Probe& probe, const Point& rest, const Points& normals,
-                        Touch& result) const {
+/// \param facing the probe's normal
+bool FoldContact::touch(std::uint32_t own, const Probe& probe, const Point& rest,
+                        const Point& facing, const Flesh& flesh, Touch& result) const {
     const ContactSizes& sizes = _skin.sizes();
     const std::optional<bool> inside = _skin.lattice().isInside(rest);
     if (inside && !*inside) return false;
@@ -263,32 +287,26 @@ bool FoldContact::touch(const Probe& probe, const Point& rest, const Points& nor
     const Point there = on(triangle, nearest.shares, _skin.restVertices());
     const double apart = ((there - probe.rest).norm() - sizes.apart) / sizes.ramp;
     if (apart <= 0.0) return false;
-    const Point normal = on(triangle, nearest.shares, normals).normalized();
-    const double facing =
-        (kAcross - normal.dot(on(probe.triangle, probe.shares, normals).normalized())) /
-        (kAcross - kFacing);
-    if (facing <= 0.0) return false;
+    const Point normal = on(triangle, nearest.shares, flesh.normals).normalized();
+    const double opposite = (kAcross - normal.dot(facing)) / (kAcross - kFacing);
+    if (opposite <= 0.0) return false;
     if (!inside && !_skin.isInside(rest, nearest, there)) return false;
-    const auto& own = _skin.patch().triangles()[probe.triangle];
+    const auto& corners = _skin.patch().triangles()[own];
     const auto& other = _skin.patch().triangles()[triangle];
     for (std::size_t k = 0; k < 3; ++k) {
         const auto corner = static_cast<Eigen::Index>(k);
-        result.corners[k] = own[k];
+        result.corners[k] = corners[k];
         result.shares[k] = probe.shares[corner];
         result.corners[3 + k] = other[k];
         result.shares[3 + k] = -nearest.shares[corner];
     }
     result.normal = normal;
     // Both factors grow from 0, so that the gap does not jump as pairs appear and disappear.
-    result.gap = sizes.gap * std::min(apart, 1.0) * std::min(facing, 1.0);
+    result.gap = sizes.gap * std::min(apart, 1.0) * std::min(opposite, 1.0);
     return true;
 }
 
-double FoldContact::value(const Points& nodes, Points& gradient) const {
-    if (_touches.empty()) return 0.0;
-    const SkinPatch& patch = _skin.patch();
-    const Points vertices = patch.positions(nodes);
-    Points byVertex = Points::Zero(3, vertices.cols());
+double FoldContact::value(const Points& vertices, Points& gradient) const {
     double energy = 0.0;
     for (const Touch& touch : _touches) {
         Point off = Point::Zero();
@@ -298,9 +316,8 @@ double FoldContact::value(const Points& nodes, Points& gradient) const {
         energy += 0.5 * touch.stiffness * depth * depth;
         const Point force = touch.stiffness * depth * touch.normal;
         for (std::size_t k = 0; k < 6; ++k)
-            byVertex.col(touch.corners[k]) -= touch.shares[k] * force;
+            gradient.col(touch.corners[k]) -= touch.shares[k] * force;
     }
-    patch.spread(byVertex, gradient);
     return energy;
 }
 

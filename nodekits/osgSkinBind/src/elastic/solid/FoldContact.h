@@ -28,10 +28,14 @@ public:
         return _bounds.contains(point) ? index(binAt(point)) : kNoBin;
     }
 
+    /// True if test(bin) is true for a bin that a box overlaps.
+    template <typename Test>
+    bool anyBin(const Eigen::AlignedBox3d& box, const Test& test) const;
+
     /// Calls visit(cell) for each cell that reaches into a bin.
     template <typename Visit>
     void forEachIn(std::size_t bin, const Visit& visit) const {
-        for (std::uint32_t i = _first[bin]; i < _first[bin + 1]; ++i) visit(_cells[i]);
+        for (std::uint32_t i = _first[bin]; i < _first[bin + 1]; ++i) visit(_entries[i].cell);
     }
 
     /// Calls found(cell, local) for each cell that contains the point, until it returns true.
@@ -51,25 +55,49 @@ private:
     /// xyz.
     struct Map {
         Point at, x, y, z, xy, yz, zx, xyz;
+        Point middle;
+        Eigen::Matrix3d inverse; ///< of the map's derivative in the middle
+    };
+
+    /// A cell in a bin, with the box around it.
+    struct Entry {
+        std::array<float, 3> low, high;
+        std::uint32_t cell;
+
+        bool contains(const Eigen::Vector3f& p) const {
+            return p.x() >= low[0] && p.x() <= high[0] && p.y() >= low[1] && p.y() <= high[1] &&
+                   p.z() >= low[2] && p.z() <= high[2];
+        }
     };
 
     Eigen::AlignedBox3d _bounds;
     Eigen::Vector3i _bins;
     double _binSize;
-    std::vector<Eigen::AlignedBox3d> _boxes; ///< of the cells
-    std::vector<Map> _maps;                  ///< of the cells
-    std::vector<std::uint32_t> _first;       ///< of each bin; size: bins + 1
-    std::vector<std::uint32_t> _cells;
+    std::vector<Map> _maps;            ///< of the cells
+    std::vector<std::uint32_t> _first; ///< of each bin; size: bins + 1
+    std::vector<Entry> _entries;
 };
+
+template <typename Test>
+bool DeformedCells::anyBin(const Eigen::AlignedBox3d& box, const Test& test) const {
+    if (!box.intersects(_bounds)) return false;
+    const Eigen::Vector3i low = binAt(box.min()), high = binAt(box.max());
+    for (int z = low.z(); z <= high.z(); ++z)
+        for (int y = low.y(); y <= high.y(); ++y)
+            for (int x = low.x(); x <= high.x(); ++x)
+                if (test(index({x, y, z}))) return true;
+    return false;
+}
 
 template <typename Matters, typename Found>
 void DeformedCells::find(std::size_t bin, const Point& point, const Matters& matters,
                          const Found& found) const {
+    const Eigen::Vector3f rounded = point.cast<float>();
     for (std::uint32_t i = _first[bin]; i < _first[bin + 1]; ++i) {
-        const std::uint32_t cell = _cells[i];
+        const Entry& entry = _entries[i];
         Point local;
-        if (_boxes[cell].contains(point) && matters(cell) && locate(cell, point, local) &&
-            found(cell, local))
+        if (entry.contains(rounded) && matters(entry.cell) && locate(entry.cell, point, local) &&
+            found(entry.cell, local))
             return;
     }
 }
@@ -78,12 +106,10 @@ struct ContactSizes {
     double stiffness = 200.0; ///< mu / r per area
     double gap = 0.12;        ///< between the sides
     double margin = 0.2;      ///< beyond the gap, in which probes are tested
-    double spacing = 0.12;    ///< of the probes on the skin
+    double spacing = 0.2;     ///< of the probes on the skin
     double sides = 0.15;      ///< least difference of ratios between a fold's two sides
     double apart = 0.15; ///< least distance of pairs at rest: nearer ones are at the fold's edge
     double ramp = 0.7;   ///< further distance over which the gap grows to its full size
-    int fresh = 6;       ///< number of first detections, which replace the ones before
-    double leastShare = 0.1; ///< least weight of a later detection
 };
 
 /// The skin around a joint at rest, for FoldContact. Const after construction.
@@ -95,8 +121,7 @@ public:
 
     /// A point of the skin that is tested for contact.
     struct Probe {
-        std::uint32_t triangle = 0; ///< of the patch
-        Point shares;               ///< barycentric coordinates
+        Point shares; ///< barycentric coordinates
         Point rest;
         double area = 0.0;
         double ratio = 0.0;
@@ -106,7 +131,8 @@ public:
     const RestSkin& skin() const { return _skin; }
     const SkinPatch& patch() const { return _patch; }
     const ContactSizes& sizes() const { return _sizes; }
-    const std::vector<Probe>& probes() const { return _probes; }
+    /// For each triangle of the patch.
+    const std::vector<std::vector<Probe>>& probes() const { return _probes; }
     const Points& restVertices() const { return _rest; } ///< of the patch
 
     /// The range of bend ratios of some flesh.
@@ -116,8 +142,8 @@ public:
     };
     const RatioSpan& ratiosOf(std::uint32_t cell) const { return _ratiosOf[cell]; }
 
-    /// False if the flesh belongs to the probe's own side of the fold.
-    bool mayTouch(const Probe& probe, const RatioSpan& flesh) const;
+    /// False if flesh belongs to the skin's own side of the fold.
+    bool mayTouch(const RatioSpan& skin, const RatioSpan& flesh) const;
 
     /// The same for a cell's flesh; also false if it is near the probe at rest.
     bool mayTouch(const Probe& probe, std::uint32_t cell) const;
@@ -143,7 +169,7 @@ private:
     Eigen::VectorXd _nodeRatios;
     std::vector<RatioSpan> _ratiosOf; ///< of each cell
     Points _rest;                     ///< the patch's vertices
-    std::vector<Probe> _probes;
+    std::vector<std::vector<Probe>> _probes;
     std::vector<Point> _outwards; ///< normals of the patch's triangles; 0 if both sides are alike
 };
 
@@ -152,24 +178,18 @@ private:
 /// A probe on one side's skin, or a little ahead of it, may be inside the other side's flesh. Then
 /// its rest position in that flesh is found, and the probe must keep a gap from the skin's point
 /// nearest to it. Sides are distinguished by their bend ratios, not by the nearest bone, which
-/// would cause spikes on the limb's flank. The nearest point jumps as flesh slides, and with new
-/// contacts at each detection the minimiser would never converge: after a few detections, contacts
-/// are averaged over all later detections. Not thread-safe: use one object for each thread.
+/// would cause spikes on the limb's flank. Not thread-safe: use one object for each thread.
 class FoldContact {
 public:
     /// \param skin must outlive this object
     explicit FoldContact(const FoldSkin& skin) : _skin(skin) {}
 
-    /// Removes all contacts, for another bend.
-    void restart();
-
     /// Finds the probes that touch the other side.
     void detect(const Points& nodes);
 
     /// Energy of the contacts that detect() found; its gradient is added.
-    double value(const Points& nodes, Points& gradient) const;
-
-    std::size_t touches() const { return _touches.size(); }
+    /// \param vertices of the patch
+    double value(const Points& vertices, Points& gradient) const;
 
 private:
     using Probe = FoldSkin::Probe;
@@ -181,24 +201,26 @@ private:
             shares{}; ///< the weighted sum of corners is the vector between the two
         Point normal; ///< outwards from the other side
         double gap = 0.0;
-        double stiffness = 0.0; ///< decreases with each later detection
-        double weight = 1.0;    ///< decreases alike
+        double stiffness = 0.0;
     };
 
-    /// The deformed flesh.
+    /// The deformed flesh and skin.
     struct Flesh {
         DeformedCells cells;
         std::vector<FoldSkin::RatioSpan> ratios; ///< of each bin
-        Points normals;                          ///< of the patch
+        Points vertices, normals;                ///< of the patch
     };
 
-    bool look(const Probe& probe, const Point& at, const Flesh& flesh, Touch& result) const;
-    bool touch(const Probe& probe, const Point& rest, const Points& normals, Touch& result) const;
+    bool mayTouch(std::uint32_t triangle, const Flesh& flesh) const;
+    void probe(std::uint32_t triangle, const Probe& probe, const Flesh& flesh);
+    bool look(std::uint32_t triangle, const Probe& probe, const Point& at, const Point& normal,
+              const Flesh& flesh, Touch& result) const;
+    bool touch(std::uint32_t triangle, const Probe& probe, const Point& rest, const Point& facing,
+               const Flesh& flesh, Touch& result) const;
     Point on(std::uint32_t triangle, const Point& shares, const Points& vertices) const;
 
     const FoldSkin& _skin;
     std::vector<Touch> _touches;
-    int _detections = 0;
 };
 
 } // namespace osgSkin::elastic

@@ -13,10 +13,18 @@
 namespace osgSkin::elastic {
 
 /// Points, gradients and displacements, a column each. Unless stated otherwise they are in joint
-/// space: relative to the joint's centre, in units of the limb's radius there, with the axes of
-/// rest space.
+/// space: relative to the joint's centre, in units of the limb's radius there, y along the bone
+/// that moves, x along the main axis of rotation.
 using Points = Eigen::Matrix3Xd;
 using Point = Eigen::Vector3d;
+
+inline Point toEigen(const glm::dvec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+inline glm::dvec3 toGlm(const Point& p) {
+    return {p.x(), p.y(), p.z()};
+}
 
 /// Distances and sides of the skin at rest, in the space of the given positions. Thread-safe: const
 /// after construction.
@@ -38,6 +46,10 @@ public:
     const Points& positions() const { return _positions; }
     const Triangles& triangles() const { return _triangles; }
 
+    /// True if each edge is passed as often one way as the other, so that winding numbers are
+    /// whole.
+    bool isClosed() const { return _isClosed; }
+
     double distance(const Point& point) const;
     Nearest nearest(const Point& point) const;
 
@@ -54,6 +66,7 @@ private:
     Triangles _triangles;
     SurfaceTree _tree;
     WindingTree _winding;
+    bool _isClosed;
 };
 
 } // namespace osgSkin::elastic

@@ -112,25 +112,42 @@ bool FilledGrid::inBall(const Eigen::Vector3i& cell) const {
 }
 
 void FilledGrid::classify(const RestSkin& skin) {
+    const double cellRoom = kHalfDiagonal * _edge, sampleRoom = cellRoom / kFine;
     for (int z = 0; z < 2 * _half; ++z)
-        for (int y = 0; y < 2 * _half; ++y)
+        for (int y = 0; y < 2 * _half; ++y) {
+            double room = 0.0; // at most the distance from a cell's centre to the skin
             for (int x = 0; x < 2 * _half; ++x) {
-                const Eigen::Vector3i cell(x, y, z);
+                const Eigen::Vector3i cell(x, y, z), low = kFine * cell;
+                room -= _edge;
                 if (!inBall(cell)) continue;
-                const Point centre = ((cell.cast<double>().array() + 0.5 - _half) * _edge).matrix();
-                const bool cut = skin.distance(centre) < kHalfDiagonal * _edge;
-                const bool centreInside = !cut && skin.inside(centre);
+                if (room < cellRoom)
+                    room = skin.distance(
+                        ((cell.cast<double>().array() + 0.5 - _half) * _edge).matrix());
+                const bool cut = room < cellRoom;
+                _sure[indexOf(low)] = !cut;
+                const bool lowInside = !cut && isInside(skin, low);
                 for (int k = 0; k < kFine; ++k)
                     for (int j = 0; j < kFine; ++j)
                         for (int i = 0; i < kFine; ++i) {
-                            const Eigen::Vector3i fine = kFine * cell + Eigen::Vector3i(i, j, k);
+                            const Eigen::Vector3i fine = low + Eigen::Vector3i(i, j, k);
                             const std::size_t at = indexOf(fine);
-                            const Point middle = sampleAt(fine);
-                            if (cut ? skin.inside(middle) : centreInside) _copyOf[at] = kFilled;
-                            _sure[at] =
-                                !cut || skin.distance(middle) > kHalfDiagonal * _edge / kFine;
+                            _sure[at] = !cut || skin.distance(sampleAt(fine)) > sampleRoom;
+                            if (cut ? isInside(skin, fine) : lowInside) _copyOf[at] = kFilled;
                         }
             }
+        }
+}
+
+/// If nothing of a closed skin is between a sample and the one before it along an axis, both are on
+/// the same side.
+bool FilledGrid::isInside(const RestSkin& skin, const Eigen::Vector3i& fine) const {
+    if (skin.isClosed() && _sure[indexOf(fine)])
+        for (int axis = 0; axis < 3; ++axis) {
+            const Eigen::Vector3i before = fine - Eigen::Vector3i::Unit(axis);
+            if (before[axis] >= 0 && _sure[indexOf(before)])
+                return _copyOf[indexOf(before)] == kFilled;
+        }
+    return skin.inside(sampleAt(fine));
 }
 
 /// Fills the samples around vertices of sheets without an inside (clothes, open skins) and of parts
@@ -193,18 +210,22 @@ std::int32_t FilledGrid::copyNear(const Point& point) const {
     if (const std::int32_t here = copyAt(point); here != kEmpty) return here;
     const Eigen::Vector3i fine = fineAt(point);
     std::int32_t best = kEmpty;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int k = -kSearch; k <= kSearch; ++k)
-        for (int j = -kSearch; j <= kSearch; ++j)
-            for (int i = -kSearch; i <= kSearch; ++i) {
-                const Eigen::Vector3i other = fine + Eigen::Vector3i(i, j, k);
-                if (!contains(other)) continue;
-                const std::int32_t copy = _copyOf[indexOf(other)];
-                const double away = (sampleAt(other) - point).squaredNorm();
-                if (copy == kEmpty || away >= nearest) continue;
-                nearest = away;
-                best = copy;
-            }
+    for (const int search : {1, kSearch}) { // most are found among the first
+        double nearest = std::numeric_limits<double>::infinity();
+        for (int k = -search; k <= search; ++k)
+            for (int j = -search; j <= search; ++j)
+                for (int i = -search; i <= search; ++i) {
+                    const Eigen::Vector3i other = fine + Eigen::Vector3i(i, j, k);
+                    if (!contains(other)) continue;
+                    const std::int32_t copy = _copyOf[indexOf(other)];
+                    if (copy == kEmpty) continue;
+                    const double away = (sampleAt(other) - point).norm();
+                    if (away >= nearest) continue;
+                    nearest = away;
+                    best = copy;
+                }
+        if (nearest * kFine < (search + 0.5) * _edge) return best;
+    }
     return best;
 }
 

@@ -84,6 +84,7 @@ private:
     Eigen::Vector3i fineAt(const Point& point) const;
     bool contains(const Eigen::Vector3i& fine) const;
     void classify(const RestSkin& skin);
+    bool isInside(const RestSkin& skin, const Eigen::Vector3i& fine) const;
     void fillAroundVertices(const RestSkin& skin);
     void makeCopies();
     void flood(const Eigen::Vector3i& from, const Eigen::Vector3i& cell, std::int32_t copy);
