@@ -197,3 +197,21 @@ TEST(ElasticBind, ClothesMoveAsTheSkinBelowThem) {
     EXPECT_GT(largest, 1000.0f); // of 32767, the maximum of a stored share
     EXPECT_LT(apart, 0.02f * largest);
 }
+
+/// An arm whose forearm has a second bone in line with the first, for twists.
+TEST(FindShapedJoints, LeavesOutTwistBones) {
+    RestSkeleton skeleton;
+    skeleton.add("Spine", -1, glm::dvec3(0, 0, 0));
+    skeleton.add("LeftArm", 0, glm::dvec3(0, 1, 0));
+    skeleton.add("LeftForeArm", 1, glm::dvec3(0, 5, 0.5));
+    skeleton.add("LeftForeArmRoll", 2, glm::dvec3(0, 8.6, 0.25));
+    skeleton.add("LeftHand", 3, glm::dvec3(0, 12.2, 0.0));
+    skeleton.joints.back().tip = glm::dvec3(0, 14, -0.125);
+    BindOptions options;
+    options.shapes = BindOptions::Shapes::Fast;
+    std::vector<std::uint32_t> shaped;
+    for (const CorrectiveJoint& joint : bind(arm(), skeleton, options).correctives.joints)
+        shaped.push_back(joint.joint);
+    EXPECT_EQ(std::count(shaped.begin(), shaped.end(), 2u), 1) << "the elbow";
+    EXPECT_EQ(std::count(shaped.begin(), shaped.end(), 3u), 0) << "the twist bone";
+}

@@ -172,8 +172,8 @@ osgSkin::SkinMesh moved(osgSkin::SkinMesh mesh, const glm::dvec3& by, double sca
     return mesh;
 }
 
-SkinMesh sheet(std::uint32_t side) {
-    SkinMesh mesh;
+osgSkin::SkinMesh sheet(std::uint32_t side) {
+    osgSkin::SkinMesh mesh;
     const double step = 2.0 / (side - 1);
     for (std::uint32_t y = 0; y < side; ++y)
         for (std::uint32_t x = 0; x < side; ++x) {

@@ -38,9 +38,8 @@ using Basis = CorrectiveJoint::Basis;
 /// Beyond this flexion a knee's solid begins to tangle; degrees from the straight limb.
 constexpr double kMaxFlexion = 139.0;
 
-/// Beyond this angle from the rest pose, limbs of ball joints meet skin outside of their fold;
-/// degrees.
-constexpr double kMaxSwing = 90.0;
+/// How far shoulders and hips bend from the rest pose, degrees.
+constexpr double kMaxSwing = 150.0, kMaxHipSwing = 120.0;
 
 /// How far shapes reach, in radii. A hinge's fold needs all that is solved. At the trunk other
 /// limbs are near that the solved flesh does not include: mainly hands beside thighs and, in
@@ -105,6 +104,7 @@ std::vector<ElasticPlan> planElastic(const RestSkeleton& skeleton,
     scope.mostFlexion = kMaxFlexion;
     scope.knotStep = kKnotStep;
     scope.mostSwing = kMaxSwing;
+    scope.mostSwingBeside = kMaxHipSwing;
     const JointRatios ratios(mesh, binding);
     std::vector<ElasticPlan> plans;
     for (ShapedJoint& shaped : findShapedJoints(skeleton, joints, mesh, binding, scope)) {

@@ -234,6 +234,41 @@ End endOf(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
     return End::None;
 }
 
+double bendAtRest(const PlannedJoint& joint) {
+    return glm::length(glm::cross(joint.comingFrom, joint.boneAxis));
+}
+
+/// Whether a joint between a trunk and a hand or foot is straight and the limb bends elsewhere: at
+/// the joint that is bent at rest or, if none is, at the middle. Bones that share a limb's twist
+/// begin at such joints.
+bool isTwistBone(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    if (bendAtRest(joints[joint]) > kFaint) return false;
+    const auto isLimb = [&](int j) {
+        return j >= 0 && joints[static_cast<std::size_t>(j)].kind == JointKind::Limb;
+    };
+    int j = static_cast<int>(joint);
+    while (isLimb(joints[static_cast<std::size_t>(j)].parent))
+        j = joints[static_cast<std::size_t>(j)].parent;
+    std::vector<std::size_t> limb;
+    std::vector<double> begins;
+    double length = 0.0;
+    for (; isLimb(j); j = joints[limb.back()].child) {
+        limb.push_back(static_cast<std::size_t>(j));
+        begins.push_back(length);
+        length += joints[limb.back()].boneLength;
+    }
+    if (j < 0 || limb.size() < 3) return false; // no hand or foot, or one joint in between
+    std::size_t bends = 1;
+    const bool isBent = std::any_of(limb.begin() + 1, limb.end(), [&](std::size_t each) {
+        return bendAtRest(joints[each]) > kPlain;
+    });
+    for (std::size_t i = 2; i < limb.size(); ++i)
+        if (isBent ? bendAtRest(joints[limb[i]]) > bendAtRest(joints[limb[bends]])
+                   : std::abs(begins[i] - 0.5 * length) < std::abs(begins[bends] - 0.5 * length))
+            bends = i;
+    return joint != limb.front() && joint != limb[bends];
+}
+
 } // namespace
 
 double ShapeReach::shareAt(double radii) const {
@@ -269,6 +304,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         if (trunk[j] || extremities[j] || planned.rigid >= 0 || !planned.holdsRegion()) continue;
         const auto above = static_cast<std::uint32_t>(regionAbove(joints, j));
         const bool atTrunk = trunk[above];
+        if (!atTrunk && isTwistBone(joints, j)) continue;
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
         ShapedJoint shaped;
         shaped.radius = radiusAt(planned, mesh, bend);
@@ -295,6 +331,8 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         const ShapeReach& reach = !shaped.isAtTrunk() ? scope.betweenLimbs
                                   : beside            ? scope.besideLimb
                                                       : scope.atTrunk;
+        if (beside)
+            setBallRange(acrossOf(joints, shaped.functions.joint), shaped, scope.mostSwingBeside);
         Armpit pit{reach};
         if (shaped.isAtTrunk() && !beside) pit = pitOf(joints[0].centre, shaped, scope.inPit);
         addSkin(mesh, joints, ratios, scope.trunkToo, insideOut, reach, pit, shaped);

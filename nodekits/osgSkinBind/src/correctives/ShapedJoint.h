@@ -104,11 +104,12 @@ struct ShapeScope {
     double mostFlexion = 155.0;      ///< degrees from the straight limb
     double knotStep = 30.0;          ///< degrees between a hinge's knots, at most
     double mostSwing = 130.0;        ///< of ball joints, degrees from the rest pose
+    double mostSwingBeside = 130.0;  ///< the same if another limb begins beside it: hips
 };
 
-/// Finds the joints to shape by the shape of their limbs. The directions in which they bend come
-/// from the rest pose or, if that does not show them, from names and the direction of the feet.
-/// \param binding of the mesh before welding
+/// Finds the joints to shape by the shape of their limbs, without those of twist bones. The
+/// directions in which they bend come from the rest pose or, if that does not show them, from names
+/// and the direction of the feet. \param binding of the mesh before welding
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding,

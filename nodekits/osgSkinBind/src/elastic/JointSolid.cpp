@@ -264,7 +264,7 @@ JointSolid::State JointSolid::bend(const State& from, const Eigen::Quaterniond& 
             return _preconditioner.solve(gradient);
         };
         energy.renew = [&contact](const Points& at) { contact.detect(at); };
-        state.steps += minimise(energy, nodes, _options.limits).steps;
+        state.steps += minimise(energy, nodes, _options.limits);
         state.missed = nodes - start;
         state.lastTurn = turn;
         state.nodes = std::move(nodes);

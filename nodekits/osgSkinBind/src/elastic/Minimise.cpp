@@ -46,16 +46,15 @@ Directions direction(const Energy& energy, const std::deque<Pair>& pairs,
 
 } // namespace
 
-MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimits& limits) {
-    MinimiseResult result;
+int minimise(const Energy& energy, Points& points, const MinimiseLimits& limits) {
     Points gradient(3, points.cols()), next = gradient, nextGradient = gradient;
     double value = 0.0;
     std::deque<Pair> pairs;
-    int resting = 0;
-    for (; result.steps < limits.mostSteps && resting < kRestingSteps; ++result.steps) {
-        const bool renews = energy.renew && result.steps % limits.renewEvery == 0;
+    int steps = 0;
+    for (int resting = 0; steps < limits.mostSteps && resting < kRestingSteps; ++steps) {
+        const bool renews = energy.renew && steps % limits.renewEvery == 0;
         if (renews) energy.renew(points);
-        if (renews || result.steps == 0) value = energy.value(points, gradient);
+        if (renews || steps == 0) value = energy.value(points, gradient);
         const Directions rounded = gradient.cast<float>();
         Directions way = direction(energy, pairs, rounded);
         double slope = dot(way, rounded);
@@ -64,10 +63,7 @@ MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimi
             way = direction(energy, pairs, rounded);
             slope = dot(way, rounded);
         }
-        if (!(slope < 0.0)) {
-            if (slope == 0.0) resting = kRestingSteps; // no gradient is left
-            break;
-        }
+        if (!(slope < 0.0)) break;
         double nextValue = 0.0, length = 1.0;
         int halvings = 0;
         for (; halvings < kMaxHalvings; ++halvings, length *= 0.5) {
@@ -92,8 +88,7 @@ MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimi
         gradient.swap(nextGradient);
         value = nextValue;
     }
-    result.converged = resting == kRestingSteps;
-    return result;
+    return steps;
 }
 
 } // namespace osgSkin::elastic

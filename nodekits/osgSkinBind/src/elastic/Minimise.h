@@ -23,20 +23,16 @@ struct Energy {
 };
 
 struct MinimiseLimits {
-    int mostSteps = 30;
+    int mostSteps = 20;
     int renewEvery = 10;     ///< steps
     double smallStep = 1e-3; ///< largest displacement of a point that counts as rest
-};
-
-struct MinimiseResult {
-    bool converged = false;
-    int steps = 0;
 };
 
 /// L-BFGS (Nocedal & Wright 2006, algorithm 7.4) with the preconditioner as initial inverse
 /// Hessian, and backtracking.
 /// \pre the energy is finite at the points
-MinimiseResult minimise(const Energy& energy, Points& points, const MinimiseLimits& limits);
+/// \return the number of steps: less than the most if the points came to rest
+int minimise(const Energy& energy, Points& points, const MinimiseLimits& limits);
 
 } // namespace osgSkin::elastic
 

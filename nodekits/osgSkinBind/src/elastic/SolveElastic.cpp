@@ -234,7 +234,7 @@ const double kSideways = glm::radians(20.0);
 constexpr double kSidewaysAt[] = {0.4, 0.75, 1.0};
 
 constexpr int kDirections = 8;
-constexpr int kAngles = 3;
+const double kBallStep = glm::radians(30.0);
 
 /// Angles from 0 (excluded) to `end` in equal steps.
 void addSteps(double end, const glm::dvec3& axis, std::vector<glm::dquat>& samples) {
@@ -283,11 +283,12 @@ std::vector<glm::dquat> hingeSamples(const HingeRange& range, const glm::dvec3& 
 
 std::vector<glm::dquat> ballSamples(const glm::dvec3& pole, const glm::dvec3& across, double most) {
     std::vector<glm::dquat> samples;
+    const int angles = static_cast<int>(std::ceil(most / kBallStep - 1e-9));
     for (int direction = 0; direction < kDirections; ++direction) {
         const double turn = 2.0 * glm::pi<double>() * direction / kDirections;
         const glm::dvec3 axis = glm::angleAxis(turn, pole) * across;
-        for (int i = 1; i <= kAngles; ++i)
-            samples.push_back(glm::angleAxis(most * i / kAngles, axis));
+        for (int i = 1; i <= angles; ++i)
+            samples.push_back(glm::angleAxis(most * i / angles, axis));
     }
     return samples;
 }

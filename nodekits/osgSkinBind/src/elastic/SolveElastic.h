@@ -91,7 +91,8 @@ struct HingeRange {
 /// \param pole unit; from the joint to its child. All axes are perpendicular to it
 std::vector<glm::dquat> hingeSamples(const HingeRange& range, const glm::dvec3& pole);
 
-/// The rotations to solve a ball joint at: three angles in each of eight directions.
+/// The rotations to solve a ball joint at: angles at most 30 degrees apart in each of eight
+/// directions.
 /// \param pole unit; from the joint to its child
 /// \param across unit, perpendicular to the pole: the first direction's axis
 /// \param most the largest angle, radians

@@ -14,8 +14,8 @@ constexpr double kBinEdges = 1.0; ///< a bin's size in cells' edges
 constexpr int kNewtonSteps = 6;
 constexpr double kWithin = 1e-6;
 
-/// Points farther from a cell's centre, in edges, are not in the cell: at a Newton step, and at the
-/// first guess.
+/// Points that come farther from a cell's centre, in edges, are not in the cell: in any Newton
+/// step, and in the first.
 constexpr double kFar = 3.5, kFirstFar = 1.2;
 
 /// Boxes of cells are wider than the cells, so that rounding loses no point.
@@ -56,13 +56,6 @@ DeformedCells::DeformedCells(const VoxelLattice& lattice, const Points& nodes)
         map.yz = corner(6) - corner(4) - map.y;
         map.zx = corner(5) - corner(4) - map.x;
         map.xyz = corner(7) - corner(6) - corner(5) + corner(4) - map.xy;
-        map.middle = map.at + 0.5 * (map.x + map.y + map.z) + 0.25 * (map.xy + map.yz + map.zx) +
-                     0.125 * map.xyz;
-        Eigen::Matrix3d slope;
-        slope << map.x + 0.5 * (map.xy + map.zx) + 0.25 * map.xyz,
-            map.y + 0.5 * (map.xy + map.yz) + 0.25 * map.xyz,
-            map.z + 0.5 * (map.yz + map.zx) + 0.25 * map.xyz;
-        map.inverse = slope.inverse();
     }
     _bins = (_bounds.sizes() / _binSize).array().floor().cast<int>() + 1;
     _first.assign(index(_bins - Eigen::Vector3i::Ones()) + 2, 0);
@@ -102,8 +95,7 @@ std::size_t DeformedCells::index(const Eigen::Vector3i& bin) const {
 bool DeformedCells::locate(std::uint32_t index, const Point& point, Point& local) const {
     const Map& map = _maps[index];
     const Point target = point - map.at;
-    local = Point::Constant(0.5) + map.inverse * (point - map.middle);
-    if (!((local.array() - 0.5).abs().maxCoeff() < kFirstFar)) return false;
+    local.setConstant(0.5);
     for (int step = 0; step < kNewtonSteps; ++step) {
         const double x = local.x(), y = local.y(), z = local.z();
         const Point byZ = map.z + x * map.zx + y * map.yz + x * y * map.xyz;
@@ -117,7 +109,7 @@ bool DeformedCells::locate(std::uint32_t index, const Point& point, Point& local
                            scale * left.dot(byX.cross(byY)));
         local += change;
         const double off = (local.array() - 0.5).abs().maxCoeff();
-        if (!(off < kFar)) return false;
+        if (!(off < (step == 0 ? kFirstFar : kFar))) return false;
         if (change.cwiseAbs().maxCoeff() < 0.1 * kWithin) break;
     }
     return local.minCoeff() >= -kWithin && local.maxCoeff() <= 1.0 + kWithin;

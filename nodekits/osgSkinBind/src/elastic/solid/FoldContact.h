@@ -55,8 +55,6 @@ private:
     /// xyz.
     struct Map {
         Point at, x, y, z, xy, yz, zx, xyz;
-        Point middle;
-        Eigen::Matrix3d inverse; ///< of the map's derivative in the middle
     };
 
     /// A cell in a bin, with the box around it.
