@@ -376,6 +376,7 @@ TEST(ElasticSamples, OfABallJointGoAllAround) {
     const glm::dvec3 across = glm::normalize(glm::cross(pole, glm::dvec3(0, 0, 1)));
     const auto samples = ballSamples(pole, across, glm::radians(90.0));
     ASSERT_EQ(samples.size(), 24u);
+    EXPECT_EQ(ballSamples(pole, across, glm::radians(150.0)).size(), 40u);
     EXPECT_NEAR(glm::dot(glm::axis(samples.front()), across), 1.0, 1e-12);
     glm::dvec3 sum(0.0);
     double most = 0.0;

@@ -109,7 +109,8 @@ struct ShapeScope {
 
 /// Finds the joints to shape by the shape of their limbs, without those of twist bones. The
 /// directions in which they bend come from the rest pose or, if that does not show them, from names
-/// and the direction of the feet. \param binding of the mesh before welding
+/// and the direction of the feet.
+/// \param binding of the mesh before welding
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding,
