@@ -15,7 +15,7 @@ import sys
 
 import markdown_it
 
-FOLDERS = ("cmake", "data", "examples", "nodekits", "osgPlugin", "tests")
+FOLDERS = ("cmake", "data", "examples", "findings", "nodekits", "osgPlugin", "tests")
 SHOWN = {".png", ".webp", ".txt"}
 MENU = {"osgSkin": "README.md", "Tutorial": "examples/tutorial/README.md", "Recipes": "examples/recipes/README.md",
         "Gallery": "examples/gallery/README.md", "Programs": "examples/README.md",

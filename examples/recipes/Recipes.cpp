@@ -20,6 +20,7 @@ Scene chooseClip(File);
 Scene convertScene(File);
 Scene deformOnCard(File);
 Scene driveBone(File);
+Scene fadeClips(File);
 Scene largeWorld(File);
 Scene levelsOfDetail(File);
 Scene loadAndPlay(File);
@@ -88,6 +89,7 @@ const std::vector<Recipe>& recipes() {
         {"loadAndPlay", loadAndPlay, "walker.skin", 0.25, kFigure},
         {"chooseClip", chooseClip, "walker.skin", 0.15, kFigure},
         {"blendClips", blendClips, "walker.skin", 0.1, kWide},
+        {"fadeClips", fadeClips, "walker.skin", 0.4, kFigure, Floor::Shadowed, false, {}, true},
         {"driveBone", driveBone, "walker.skin", 0.5, kFigure},
         {"lookAtTarget",
          lookAtTarget,
@@ -166,8 +168,9 @@ Stage stageOf(const Recipe& recipe, const std::string& file, const std::string& 
 osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& file,
                                    const std::string& samples) {
     const Stage stage = stageOf(recipe, file, samples);
-    osg::ref_ptr<osg::Image> picture =
-        example::Snapshots(stage.scene, stage.view, 320, 240).take(recipe.time);
+    example::Snapshots snapshots(stage.scene, stage.view, 320, 240);
+    if (recipe.fromStart) snapshots.take(0.0);
+    const osg::ref_ptr<osg::Image> picture = snapshots.take(recipe.time);
     // Fewer shades, for small files.
     for (unsigned int i = 0; i < picture->getTotalSizeInBytes(); ++i)
         picture->data()[i] = static_cast<unsigned char>(picture->data()[i] / 8 * 8 + 4);

@@ -21,7 +21,8 @@ struct Recipe {
     example::View view; ///< of its picture, in metres above `place`
     Floor floor = Floor::Shadowed;
     bool isWireframe = false;
-    osg::Matrixd place{}; ///< from the view to the world
+    osg::Matrixd place{};   ///< from the view to the world
+    bool fromStart = false; ///< a frame at time 0 comes before the picture's: something fades
 };
 
 /// All recipes, in the order of the page.

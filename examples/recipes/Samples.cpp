@@ -3,6 +3,7 @@
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportSkeleton>
 
 #include <glm/gtc/constants.hpp>
@@ -134,9 +135,9 @@ std::string skinFile(const std::string& mesh, const std::string& skeleton) {
 
 /// The body with fewer triangles.
 void writeCoarse(const std::string& mesh, const std::string& file) {
-    const osg::ref_ptr<osgDB::Options> asItIs = new osgDB::Options("noRotation");
-    const osg::ref_ptr<osg::Node> body = osgDB::readRefNodeFile(mesh, asItIs);
-    if (!body) throw std::runtime_error(mesh + ": cannot be read");
+    const osg::ref_ptr<osg::Group> body = new osg::Group;
+    for (const osgSkin::MeshPart& part : osgSkin::importMesh(mesh).parts)
+        body->addChild(part.geometry);
     osgUtil::Simplifier simplifier(0.2);
     body->accept(simplifier);
     osgUtil::SmoothingVisitor smoothing;

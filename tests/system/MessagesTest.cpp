@@ -49,6 +49,12 @@ TEST(Messages, SuggestOptionsInOptionStrings) {
     EXPECT_EQ(notices.text(), "");
 }
 
+TEST(Messages, SuggestFittingWhereNoSkeletonIsNamed) {
+    const std::string file = test::makeTestFolder() + "/alone.skin";
+    std::ofstream(file) << R"({"osgskin": 1, "mesh": ")" << OSGSKIN_DATA << R"(/thrower.obj"})";
+    expectContains(test::whyRefused(file), R"(set "skeleton" to a file, or to { "fit": true })");
+}
+
 TEST(Messages, SuggestOptionsOnCommandLines) {
     const std::string folder = test::makeTestFolder();
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {

@@ -26,6 +26,7 @@
 #include <osgDB/WriteFile>
 
 #include <cmath>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -372,6 +373,35 @@ TEST(Units, OfBakedGlbAreMetres) {
     EXPECT_NEAR(node["scale"][1].get<double>(), 0.01, 1e-9);
     EXPECT_NEAR(osgSkin::importMesh(folder + "/post.glb").mesh.size(), 2.0, 1e-5);
     EXPECT_NEAR(osgSkin::importMesh(folder + "/rest.obj").mesh.size(), 200.0, 1e-3);
+}
+
+/// The thrower, eight times as large in files that state no unit.
+TEST(Units, MissingOnesAreReportedForLargeBodies) {
+    const std::string folder = test::makeTestFolder();
+    const auto scaled = [&](const std::string& name, const std::string& word) {
+        std::istringstream in(test::fileText(OSGSKIN_DATA "/" + name));
+        std::ofstream out(folder + "/" + name);
+        for (std::string line; std::getline(in, line);) {
+            std::istringstream words(line);
+            std::string first;
+            double x = 0.0, y = 0.0, z = 0.0;
+            if (words >> first >> x >> y >> z && first == word)
+                out << word << ' ' << 8.0 * x << ' ' << 8.0 * y << ' ' << 8.0 * z << '\n';
+            else
+                out << line << '\n';
+        }
+    };
+    scaled("thrower.obj", "v");
+    scaled("thrower.bvh", "OFFSET");
+    const auto notesOf = [&](const std::string& unit) {
+        std::ofstream(folder + "/a.skin")
+            << R"({"osgskin": 1, "mesh": "thrower.obj", "skeleton": "thrower.bvh")" << unit << "}";
+        return loadCharacter(folder + "/a.skin").notes;
+    };
+    ASSERT_EQ(notesOf("").size(), 1u);
+    test::expectContains(notesOf("").front(), "the body is 14");
+    EXPECT_TRUE(notesOf(R"(, "unit": 0.125)").empty());
+    EXPECT_TRUE(loadCharacter(OSGSKIN_DATA "/thrower.skin").notes.empty());
 }
 
 TEST(Units, OfOsgScenesAreSetByOption) {

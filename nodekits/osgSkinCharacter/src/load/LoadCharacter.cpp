@@ -7,6 +7,7 @@
 #include "source/LoadReport.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/GlmOsg>
 #include <osgSkinGpu/GpuSkin>
 #include <osgSkinImport/FindNamedFile>
 #include <osgSkinImport/ImportRig>
@@ -16,7 +17,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <locale>
 #include <new>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -59,6 +64,8 @@ private:
 
 thread_local std::vector<std::string> OpenFile::_files;
 
+constexpr double kMinHeight = 0.25, kMaxHeight = 5.0; ///< metres, of a body without a known unit
+
 /// The steps that `.skin` files and rigged models share: everything after reading their files.
 Character makeCharacter(CharacterSource source, const LoadOptions& options, LoadStages& stages) {
     Character character;
@@ -79,6 +86,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     character.toWorld = osg::Matrixd::scale(metres, metres, metres) * source.toWorld;
     character.notes = std::move(source.notes);
     withFileContext(source.file, [&] { buildScene(source, options, character); });
+    checkSize(character, source.statedUnit > 0.0 || source.options.unit);
     stages.finish();
     return character;
 }
@@ -110,6 +118,23 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
 }
 
 } // namespace
+
+void checkSize(Character& character, bool unitIsKnown) {
+    if (unitIsKnown || !character.roles.known()) return;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const glm::dvec3& position : character.body.mesh.positions) {
+        const double z = (toOsg(position) * character.toWorld).z();
+        low = std::min(low, z);
+        high = std::max(high, z);
+    }
+    if (high - low >= kMinHeight && high - low <= kMaxHeight) return;
+    std::ostringstream note;
+    note.imbue(std::locale::classic());
+    note << character.file << ": the body is " << std::setprecision(3) << high - low
+         << " m tall, as the files state no unit and metres are assumed; set \"unit\" if they have "
+            "another";
+    warn(character.notes, note.str());
+}
 
 Character loadCharacter(const std::string& path, const LoadOptions& options) try {
     Character character = loadFrom(path, options);

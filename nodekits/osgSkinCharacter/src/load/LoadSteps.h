@@ -52,6 +52,12 @@ void setRigidParts(CharacterSource& source, const std::vector<CharacterMotion>& 
 /// \throw Error with the file and the reason
 Binding bindSource(CharacterSource& source, const Progress& progress, BindReport& report);
 
+/// Warns about a body that is far larger or smaller than a person, where no unit is known.
+///
+/// \param character with roles, placed in its scene
+/// \param unitIsKnown by its files or an option
+void checkSize(Character& character, bool unitIsKnown);
+
 /// Reads a scene by osgDB and re-skins its rigs in place.
 ///
 /// \param file any name that osgDB reads, also a pseudo-loader's

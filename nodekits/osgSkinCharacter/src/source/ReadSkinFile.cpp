@@ -29,6 +29,17 @@ void fitRest(CharacterSource& source, FitOptions fit, const Progress& progress) 
         warn(source.notes, source.file + ": fitted skeleton: " + note);
 }
 
+/// Reads the skeleton that a `.skin` file names, or the mesh file's own.
+RestSkeleton namedSkeleton(const SkinFile& skin, const osgDB::Options* options) {
+    try {
+        return importSkeleton(skin.skeleton, options);
+    } catch (const Error& error) {
+        if (skin.skeleton != skin.mesh) throw;
+        throw Error(std::string(error.what()) +
+                    "; set \"skeleton\" to a file, or to { \"fit\": true } to fit one to the body");
+    }
+}
+
 std::vector<std::string> filesOf(const SkinFile& skin, const CharacterSource& source) {
     std::vector<std::string> files{skin.file, skin.mesh};
     for (const std::string& file : {skin.skeleton, source.weightsFile})
@@ -71,8 +82,8 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
         fitRest(source, *skin.fit, stages.begin("skeleton", LoadStages::kFit));
     } else {
         stages.begin("skeleton", LoadStages::kSkeleton);
-        source.rest = withFileContext(
-            file, [&] { return importSkeleton(skin.skeleton, options.readOptions.get()); });
+        source.rest =
+            withFileContext(file, [&] { return namedSkeleton(skin, options.readOptions.get()); });
     }
     const osgDB::Options* read = options.readOptions.get();
     source.statedUnit = importUnit(skin.mesh, read);

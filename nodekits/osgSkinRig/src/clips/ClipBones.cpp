@@ -4,6 +4,8 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 
+#include <osg/NodeVisitor>
+
 #include <cmath>
 
 namespace osgSkin {
@@ -63,6 +65,29 @@ bool HoldingElements::find(osgAnimation::UpdateBone& update) {
     for (const auto& element : update.getStackedTransforms())
         if (!take(*this, element.get())) return false;
     return matrix || (translate && rotate);
+}
+
+namespace {
+
+class BonesInOrder : public osg::NodeVisitor {
+public:
+    BonesInOrder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Transform& node) override {
+        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
+        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) bones.emplace_back(bone);
+        traverse(node);
+    }
+
+    std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
+};
+
+} // namespace
+
+std::vector<osg::ref_ptr<osgAnimation::Bone>> bonesInOrder(osgAnimation::Skeleton& skeleton) {
+    BonesInOrder found;
+    skeleton.accept(found);
+    return found.bones;
 }
 
 osgAnimation::UpdateBone* updateOf(osgAnimation::Bone& bone) {

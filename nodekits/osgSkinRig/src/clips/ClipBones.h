@@ -5,12 +5,16 @@
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/RestSkeleton>
 
+#include <osg/ref_ptr>
 #include <osgAnimation/Bone>
+#include <osgAnimation/Skeleton>
 #include <osgAnimation/StackedMatrixElement>
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedScaleElement>
 #include <osgAnimation/StackedTranslateElement>
 #include <osgAnimation/UpdateBone>
+
+#include <vector>
 
 namespace osgSkin {
 
@@ -33,6 +37,9 @@ struct HoldingElements {
     ///        are then not usable
     bool find(osgAnimation::UpdateBone& update);
 };
+
+/// The bones of a skeleton, parents before children; not those of another skeleton below it.
+std::vector<osg::ref_ptr<osgAnimation::Bone>> bonesInOrder(osgAnimation::Skeleton& skeleton);
 
 /// The update callback that moves a bone, which may be nested in others; null where there is none.
 osgAnimation::UpdateBone* updateOf(osgAnimation::Bone& bone);

@@ -131,6 +131,27 @@ public:
     std::vector<osg::NodePath> skins, rigids, hung;
 };
 
+/// Removes animation managers.
+class ManagerRemover : public osg::NodeVisitor {
+public:
+    ManagerRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        for (osg::ref_ptr<osg::Callback> c = node.getUpdateCallback(); c;) {
+            const osg::ref_ptr<osg::Callback> next = c->getNestedCallback();
+            if (dynamic_cast<osgAnimation::AnimationManagerBase*>(c.get()))
+                node.removeUpdateCallback(c);
+            c = next;
+        }
+        traverse(node);
+    }
+};
+
+/// The scene's Z in rest space.
+osg::Vec3d upOf(const osg::Matrixd& toWorld) {
+    return osg::Matrixd::transform3x3(toWorld, osg::Vec3d(0.0, 0.0, 1.0));
+}
+
 /// The path up to the nearest skeleton; empty where there is none.
 osg::NodePath toSkeleton(osg::NodePath path) {
     while (!path.empty() && !dynamic_cast<osgAnimation::Skeleton*>(path.back())) path.pop_back();
@@ -392,6 +413,17 @@ void ClipCharacter::bake(const SampledClip* clip) {
     }
     _baked.push_back(baked);
     _bakedBounds = bounds;
+}
+
+osg::ref_ptr<ClipPlayer> ClipCharacter::makeBonePlayer() {
+    ManagerRemover remover;
+    _character->accept(remover);
+    osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    player->setRoot(ClipPlayer::Root::Moving, upOf(_toWorld));
+    player->addBones(_skeleton);
+    player->setNestedCallback(_character->getUpdateCallback());
+    _character->setUpdateCallback(player);
+    return player;
 }
 
 ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {

@@ -2,6 +2,7 @@
 #include <osgSkinRig/ClipPlayer>
 
 #include "clips/BakedClip.h"
+#include "clips/ClipBones.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace osgSkin {
 namespace {
@@ -59,7 +62,24 @@ int parentJoint(const SampledClip& clip, int joint) {
     return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
 }
 
+double perSecond(double fade) {
+    return fade > 0.0 ? 1.0 / fade : std::numeric_limits<double>::infinity();
+}
+
 } // namespace
+
+/// Sets a bone's matrices, after the bone's own callback and before those that were added to it.
+class ClipPlayer::PlacedBone : public osg::NodeCallback {
+public:
+    osg::Matrixd inParent, inSkeleton;
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        auto& bone = static_cast<osgAnimation::Bone&>(*node);
+        bone.setMatrix(inParent);
+        bone.setMatrixInSkeletonSpace(inSkeleton);
+        traverse(node, nv);
+    }
+};
 
 ClipPlayer::ClipPlayer() = default;
 ClipPlayer::~ClipPlayer() = default;
@@ -80,7 +100,78 @@ void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
 }
 
 void ClipPlayer::setWeight(double weight) {
-    if (std::isfinite(weight)) _weight = std::clamp(weight, 0.0, 1.0);
+    if (!std::isfinite(weight)) return;
+    _weight = std::clamp(weight, 0.0, 1.0);
+    _fade = 0.0;
+}
+
+/// Changes what is played so that twists continue from the present pose.
+template <typename Change>
+void ClipPlayer::change(const Change& change) {
+    const bool continues = _posed && _layers[0].clip && knowsJoints();
+    change();
+    if (!continues) return;
+    findJoints();
+    for (std::size_t i = 0; i < _layers.size(); ++i) _posedTimes[i] = _layers[i].time;
+}
+
+/// The present pose of both layers as a clip of one sample.
+osg::ref_ptr<const SampledClip> ClipPlayer::frozen() {
+    if (!knowsJoints()) findJoints();
+    const SampledClip& base = *_layers[_base].clip;
+    const osg::ref_ptr<SampledClip> result = new SampledClip;
+    result->_name = base.name();
+    result->_joints = base.joints();
+    result->_root = base.rootJoint();
+    sampleLayers(result->_samples);
+    return result;
+}
+
+void ClipPlayer::play(const Layer& layer, double fade) {
+    if (!layer.clip) return;
+    change([&] {
+        const bool isFaded = _layers[0].clip && fade > 0.0;
+        if (isFaded && _layers[1].clip && _weight > 0.0)
+            _layers[0] = _weight < 1.0 ? Layer{frozen()} : _layers[1];
+        setLayer(isFaded ? 1 : 0, layer);
+        if (!isFaded) _layers[1] = {};
+        _weight = 0.0;
+        _fade = isFaded ? perSecond(fade) : 0.0;
+    });
+}
+
+bool ClipPlayer::playOn(const std::string& joint, const Layer& layer, double fade) {
+    if (!layer.clip || layer.clip->find(joint) < 0) return false;
+    change([&] {
+        _part.layer = layer;
+        _part.layer.time = finite(layer.time);
+        _part.layer.speed = finite(layer.speed);
+        _part.joint = joint;
+        _part.fade = perSecond(fade);
+        if (!(fade > 0.0)) _part.weight = 1.0;
+        _found[0] = nullptr;
+    });
+    return true;
+}
+
+void ClipPlayer::stopOn(double fade) {
+    _part.fade = -perSecond(fade);
+    if (!(fade > 0.0)) _part = {};
+}
+
+void ClipPlayer::advanceFades(double seconds) {
+    const double passed = std::abs(seconds);
+    if (_fade > 0.0 && passed > 0.0) _weight = std::min(1.0, _weight + _fade * passed);
+    if (_fade > 0.0 && _weight == 1.0)
+        change([&] {
+            _layers[0] = _layers[1];
+            _layers[1] = {};
+            _weight = _fade = 0.0;
+        });
+    if (!_part.layer.clip) return;
+    _part.layer.time = finite(_part.layer.time + _part.layer.speed * seconds);
+    if (passed > 0.0) _part.weight = std::clamp(_part.weight + _part.fade * passed, 0.0, 1.0);
+    if (_part.fade < 0.0 && _part.weight == 0.0) _part = {};
 }
 
 void ClipPlayer::setRoot(Root root, const osg::Vec3d& up) {
@@ -113,6 +204,28 @@ void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& jo
                           const osg::Matrixd& toParent) {
     if (!transform) return;
     _rigids.push_back({transform, joint, toParent, -1});
+    _found[0] = nullptr;
+}
+
+void ClipPlayer::addBones(osgAnimation::Skeleton* skeleton) {
+    if (!skeleton) return;
+    std::map<const osgAnimation::Bone*, int> indices;
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : bonesInOrder(*skeleton)) {
+        const osg::ref_ptr<PlacedBone> placed = new PlacedBone;
+        placed->inParent = bone->getMatrix();
+        placed->inSkeleton = bone->getMatrixInSkeletonSpace();
+        if (osg::Callback* own = updateOf(*bone)) {
+            placed->setNestedCallback(own->getNestedCallback());
+            own->setNestedCallback(placed);
+        } else {
+            placed->setNestedCallback(bone->getUpdateCallback());
+            bone->setUpdateCallback(placed);
+        }
+        const auto parent = indices.find(bone->getBoneParent());
+        indices[bone] = static_cast<int>(_bones.size());
+        _bones.push_back({placed, bone->getName(), parent == indices.end() ? -1 : parent->second,
+                          -1, osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace())});
+    }
     _found[0] = nullptr;
 }
 
@@ -213,6 +326,7 @@ void ClipPlayer::advance(double seconds) {
                                    layer.clip->sample(0)[root].translation)) *
                  share;
     }
+    advanceFades(seconds);
     if (!extracts) return;
     move.shift += pivot - osg::Quat(move.angle, _up) * pivot;
     _motion = then(_motion, move);
@@ -248,7 +362,7 @@ void ClipPlayer::findJoints() {
     compareClips();
     _base = baseLayer();
     const SampledClip& clip = *_layers[_base].clip;
-    _needsWhole = !_rigids.empty();
+    _needsWhole = !_rigids.empty() || !_bones.empty();
     for (Skin& skin : _skins) {
         skin.model = skin.skin->getModel();
         skin.joints.clear();
@@ -268,6 +382,15 @@ void ClipPlayer::findJoints() {
         _needsWhole = _needsWhole || !skin.direct;
     }
     for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
+    for (Bone& bone : _bones) bone.joint = clip.find(bone.name);
+    _part.joints.assign(clip.joints().size(), -1);
+    std::vector<bool> isBelow(clip.joints().size());
+    for (std::size_t j = 0; _part.layer.clip && j < isBelow.size(); ++j) {
+        const SampledClip::Joint& joint = clip.joints()[j];
+        isBelow[j] = joint.name == _part.joint ||
+                     (joint.parent >= 0 && isBelow[static_cast<std::size_t>(joint.parent)]);
+        if (isBelow[j]) _part.joints[j] = _part.layer.clip->find(joint.name);
+    }
     _others.clear();
     if (const SampledClip* other = _layers[1 - _base].clip.get())
         for (const SampledClip::Joint& joint : clip.joints())
@@ -275,32 +398,61 @@ void ClipPlayer::findJoints() {
     for (std::size_t i = 0; i < _found.size(); ++i) _found[i] = _layers[i].clip.get();
 }
 
-void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
+/// The joints' transforms at a layer's time, without what the root does not move by.
+void ClipPlayer::sampleLayer(const Layer& layer, std::vector<JointSample>& joints) const {
+    joints.resize(layer.clip->joints().size());
+    SampledClip::Place at = layer.clip->place(layer.time, layer.loop);
+    if (!_interpolated) at.share = 0.0;
+    const JointSample* from = layer.clip->sample(at.from);
+    const JointSample* next = layer.clip->sample(at.to);
+    const SampleBlend between(at.share);
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = between(from[j], next[j]);
+    if (_root == Root::Moving) return;
+    JointSample& root = joints[layer.clip->rootJoint()];
+    const GroundMove gone = rootMove(*layer.clip, root);
+    root.translation -= toGlm(gone.shift);
+    if (gone.angle != 0.0) root.rotation = glm::angleAxis(-gone.angle, toGlm(_up)) * root.rotation;
+}
+
+/// Both layers.
+void ClipPlayer::sampleLayers(std::vector<JointSample>& joints) const {
     static thread_local std::vector<JointSample> others;
-    const auto take = [&](const Layer& layer, std::vector<JointSample>& to) {
-        to.resize(layer.clip->joints().size());
-        SampledClip::Place at = layer.clip->place(layer.time, layer.loop);
-        if (!_interpolated) at.share = 0.0;
-        const JointSample* from = layer.clip->sample(at.from);
-        const JointSample* next = layer.clip->sample(at.to);
-        const SampleBlend between(at.share);
-        for (std::size_t j = 0; j < to.size(); ++j) to[j] = between(from[j], next[j]);
-        if (_root == Root::Moving) return;
-        JointSample& root = to[layer.clip->rootJoint()];
-        const GroundMove gone = rootMove(*layer.clip, root);
-        root.translation -= toGlm(gone.shift);
-        if (gone.angle != 0.0)
-            root.rotation = glm::angleAxis(-gone.angle, toGlm(_up)) * root.rotation;
-    };
-    take(_layers[_base], joints);
+    sampleLayer(_layers[_base], joints);
     const double weight = _base == 0 ? _weight : 1.0 - _weight;
     if (!_layers[1].clip || weight == 0.0) return;
-    take(_layers[1 - _base], others);
+    sampleLayer(_layers[1 - _base], others);
     const SampleBlend weighted(weight);
     for (std::size_t j = 0; j < joints.size(); ++j)
         joints[j] =
             weighted(joints[j],
                      _others[j] < 0 ? JointSample() : others[static_cast<std::size_t>(_others[j])]);
+}
+
+void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
+    static thread_local std::vector<JointSample> part;
+    sampleLayers(joints);
+    if (_part.weight == 0.0) return;
+    sampleLayer(_part.layer, part);
+    const SampleBlend weighted(_part.weight);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (_part.joints[j] >= 0)
+            joints[j] = weighted(joints[j], part[static_cast<std::size_t>(_part.joints[j])]);
+}
+
+void ClipPlayer::poseBones(const std::vector<JointMap>& whole) const {
+    for (const Bone& bone : _bones) {
+        const Bone* parent =
+            bone.parent < 0 ? nullptr : &_bones[static_cast<std::size_t>(bone.parent)];
+        PlacedBone& placed = *bone.placed;
+        if (bone.joint >= 0) {
+            placed.inSkeleton = bone.bind * toMatrix(whole[static_cast<std::size_t>(bone.joint)]);
+            placed.inParent = placed.inSkeleton;
+            if (parent) placed.inParent.postMult(osg::Matrixd::inverse(parent->placed->inSkeleton));
+        } else {
+            placed.inSkeleton = placed.inParent;
+            if (parent) placed.inSkeleton.postMult(parent->placed->inSkeleton);
+        }
+    }
 }
 
 bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
@@ -346,7 +498,7 @@ const ClipPlayer::Layer* ClipPlayer::layerAlone() const {
 
 const BakedClip* ClipPlayer::findBaked() const {
     const Layer* layer = layerAlone();
-    if (_baked.empty() || !layer || _root != Root::Moving) return nullptr;
+    if (_baked.empty() || !layer || _root != Root::Moving || _part.weight > 0.0) return nullptr;
     const auto baked = std::find_if(_baked.begin(), _baked.end(),
                                     [&](const auto& b) { return b->clip == layer->clip; });
     if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
@@ -418,6 +570,7 @@ bool ClipPlayer::poseAs(Pose::Twist twist) {
                                        ? rigid.toParent
                                        : toMatrix(whole[static_cast<std::size_t>(rigid.joint)]) *
                                              rigid.toParent);
+    poseBones(whole);
     return good;
 }
 

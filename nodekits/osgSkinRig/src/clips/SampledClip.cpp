@@ -46,19 +46,6 @@ private:
     Pose _pose;
 };
 
-class BonesInOrder : public osg::NodeVisitor {
-public:
-    BonesInOrder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Transform& node) override {
-        if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
-        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) bones.emplace_back(bone);
-        traverse(node);
-    }
-
-    std::vector<osg::ref_ptr<osgAnimation::Bone>> bones;
-};
-
 /// A copy of a bone's update callback, linked with an animation's channels; null where there is
 /// none. The bone itself does not move.
 osg::ref_ptr<osgAnimation::UpdateBone> copyOfUpdate(osgAnimation::Bone& bone,
@@ -80,9 +67,7 @@ osg::Matrixd matrixOf(const osgAnimation::Bone& bone, osgAnimation::UpdateBone* 
 
 BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation::Skeleton& skeleton)
     : _animation(osg::clone(&animation, osg::CopyOp::DEEP_COPY_ALL)), _speed(keySpeed(animation)) {
-    BonesInOrder found;
-    skeleton.accept(found);
-    _bones = found.bones;
+    _bones = bonesInOrder(skeleton);
     if (_bones.empty())
         throw Error("sampled clip: the skeleton \"" + skeleton.getName() + "\" has no bone");
     for (const osg::ref_ptr<osgAnimation::Bone>& bone : _bones)

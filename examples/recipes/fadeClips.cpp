@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinRig/ClipCharacter>
+
+#include <osg/MatrixTransform>
+
+namespace {
+
+/// Moves a figure along by the steps of its clips.
+struct Walk : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        traverse(node, nv); // the player has advanced
+        static_cast<osg::MatrixTransform&>(*node).preMult(player->takeRootMatrix(toWorld));
+    }
+    osg::ref_ptr<osgSkin::ClipPlayer> player;
+    osg::Matrixd toWorld; ///< from rest space
+};
+
+} // namespace
+
+/// A figure that walks, with what is played on its upper body: a wave.
+osg::ref_ptr<osg::Node> fadeClips(const std::string& file) {
+    const osgSkin::Character character = osgSkin::loadCharacter(file);
+    const auto clips = osgSkin::ClipCharacter::create(*character.root);
+    const osg::ref_ptr<Walk> walk = new Walk;
+    walk->player = clips->makeBonePlayer(); // in place of the character's manager
+    walk->player->setRoot(osgSkin::ClipPlayer::Root::ExtractedWithTurn);
+    walk->toWorld = clips->toWorld();
+    if (!character.motions.empty()) {
+        const std::string& spine = character.rest.joints[character.jointByRole("Spine")].name;
+        walk->player->play({clips->clip(character.motions.front().name())}, 0.3);
+        walk->player->playOn(spine, {clips->clip(character.motions.back().name())}, 0.2);
+    }
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+    place->addChild(character.root);
+    place->setUpdateCallback(walk);
+    return place;
+}
