@@ -36,22 +36,27 @@ function(osgskin_install_kit name component dev description requires)
     DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT ${dev})
 endfunction()
 
-# osgskin_install_program(NAME PURPOSE): installs a program, and its man page if help2man is there.
-find_program(OSGSKIN_HELP2MAN help2man)
-mark_as_advanced(OSGSKIN_HELP2MAN)
+# osgskin_install_program(NAME PURPOSE): installs a program, and its man page if help2man is there at
+# that time.
 function(osgskin_install_program name purpose)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "${osgskin_origin}/${osgskin_lib_from_bin}")
   install(TARGETS ${name} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
-  if(OSGSKIN_HELP2MAN AND NOT CMAKE_CROSSCOMPILING AND NOT OSGSKIN_SANITIZE)
-    set(page "${PROJECT_BINARY_DIR}/man/${name}.1")
-    file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/man")
-    add_custom_command(OUTPUT "${page}"
-      COMMAND "${OSGSKIN_HELP2MAN}" --no-info --name=${purpose} --output=${page}
-              "$<TARGET_FILE:${name}>"
-      DEPENDS ${name} VERBATIM)
-    add_custom_target(${name}_man ALL DEPENDS "${page}")
-    install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT programs)
+  if(CMAKE_CROSSCOMPILING OR OSGSKIN_SANITIZE)
+    return()
   endif()
+  install(CODE "
+    find_program(OSGSKIN_HELP2MAN help2man)
+    if(OSGSKIN_HELP2MAN)
+      set(page \"${PROJECT_BINARY_DIR}/man/${name}.1\")
+      file(MAKE_DIRECTORY \"${PROJECT_BINARY_DIR}/man\")
+      execute_process(COMMAND \"\${OSGSKIN_HELP2MAN}\" --no-info \"--name=${purpose}\"
+        \"--output=\${page}\" \"$<TARGET_FILE:${name}>\" RESULT_VARIABLE failed)
+      if(failed)
+        message(FATAL_ERROR \"help2man cannot make \${page}\")
+      endif()
+      file(INSTALL \"\${page}\"
+        DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\")
+    endif()" COMPONENT programs)
 endfunction()
 
 # The .pc files find the installed tree relative to themselves, the programs the libraries.
