@@ -3,7 +3,7 @@
 
 # The whole build is configured at once, so that any target can be built later.
 osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev openscenegraph
-  libglm-dev libcgal-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libstb-dev
+  libglm-dev libcgal-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libstb-dev zlib1g-dev
   libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev libdraco-dev libgtest-dev
   libbenchmark-dev libegl-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"

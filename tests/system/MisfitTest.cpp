@@ -79,9 +79,18 @@ TEST(Misfit, WarnsAboutSkeletonInAnotherUnit) {
 TEST(Misfit, WarnsAboutSkeletonInAnotherPosition) {
     for (const osg::Matrixd& move :
          {osg::Matrixd::translate(0, 0, 1e3), osg::Matrixd::translate(0, 1e3, 0),
-          osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)),
-          osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0))})
+          osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(0, 0, 1))})
         test::expectContains(misfitsOf(move), " joints lie outside the skin, expected");
+}
+
+/// As Blender writes OBJ files with Y up, and BVH files with Z up.
+TEST(Misfit, RotatesSkeletonWithAnotherAxisUp) {
+    for (const double turn : {osg::PI_2, -osg::PI_2}) {
+        const std::string notes = misfitsOf(osg::Matrixd::rotate(turn, osg::Vec3d(1, 0, 0)));
+        test::expectContains(notes, "thrower.bvh has another axis up than the body: the skeleton "
+                                    "is rotated by a quarter turn about x");
+        EXPECT_EQ(notes.find("outside"), std::string::npos) << notes;
+    }
 }
 
 TEST(Misfit, WarnsAboutPaintedBodies) {

@@ -247,6 +247,55 @@ TEST(WildGltf, LeavesOutScenery) {
         << notices.text();
 }
 
+/// A floor and a ball at a figure that walks off stay, or follow their own nodes.
+TEST(WildGltf, FreeMeshesFollowTheirOwnNodes) {
+    GltfColumn column;
+    column.bend();
+    column.animate("bend", column.joints[0], "translation", {0.0, 1.0}, {0, 0, 0, 2, 0, 0});
+    const std::size_t box = addBox(column);
+    const std::size_t floor =
+        column.node({{"name", "floor"}, {"mesh", box}, {"scale", {2, 0.1, 2}}});
+    const std::size_t ball =
+        column.node({{"name", "ball"}, {"mesh", box}, {"scale", {0.2, 0.2, 0.2}}});
+    column.animate("bend", ball, "translation", {0.0, 1.0}, {0, 1, 0, 4, 2, 0});
+    column.json["scenes"][0]["nodes"] = {0, column.meshNode, floor, ball};
+    expectExact(column.save("floor.gltf"));
+}
+
+/// Without a clip of its own, the figure is to be moved by others, and eyes with it.
+TEST(WildGltf, WithoutClipsFreeMeshesInsideTheFigureBelongToIt) {
+    GltfColumn column;
+    const std::size_t box = addBox(column);
+    const std::size_t floor = column.node(
+        {{"name", "floor"}, {"mesh", box}, {"scale", {1, 0.1, 1}}, {"translation", {0, -0.1, 0}}});
+    const std::size_t eye = column.node(
+        {{"name", "eye"}, {"mesh", box}, {"scale", {0.2, 0.2, 0.2}}, {"translation", {0, 2, 0}}});
+    column.json["scenes"][0]["nodes"] = {0, column.meshNode, floor, eye};
+    const test::Notices notices;
+    const Character character = loadCharacter(column.save("still.gltf"));
+    EXPECT_EQ(character.body.mesh.positions.size(), 24u + 8u);
+    EXPECT_TRUE(notices.say("1 objects beside the figure are left out, \"floor\" among them"))
+        << notices.text();
+}
+
+TEST(WildGltf, PartsPaintedForOneJointFollowIt) {
+    GltfColumn column;
+    column.bend();
+    std::vector<double> indices;
+    for (int v = 0; v < 24; ++v) indices.insert(indices.end(), {1, 0, 0, 0});
+    column.attributes()["JOINTS_0"] = column.accessor("VEC4", indices, 5121);
+    expectExact(column.save("shirt.gltf"));
+}
+
+/// Sketchfab's layout: a scale of the topmost joint's node that every clip replaces.
+TEST(WildGltf, ClipsMayReplaceAJointsScale) {
+    GltfColumn column;
+    column.bend();
+    column.json["nodes"][0]["scale"] = {0.45, 0.6, 0.27};
+    column.animate("bend", 0, "scale", {0.0, 1.0}, {1, 1, 1, 1, 1, 1});
+    expectExact(column.save("top_scale.gltf"));
+}
+
 TEST(WildGltf, WarnsOnceAboutNonUniformScaleAboveFivePerCent) {
     for (const double scale : {1.04, 1.2}) {
         GltfColumn column;

@@ -402,3 +402,124 @@ TEST(BadGltf, RejectsDuplicateJoints) {
     expectRigRefused(column,
                      "malformed glTF: skins[0].joints: expected each node once, found 1 again");
 }
+
+TEST(GltfDialect, ReadsPointersToNodesAsChannels) {
+    const auto clipOf = [](bool byPointer, const std::string& start) {
+        GltfColumn column;
+        column.bend();
+        for (json& channel : column.json["animations"][0]["channels"]) {
+            if (!byPointer) continue;
+            const std::string node = channel["target"]["node"].dump();
+            channel["target"] = {
+                {"path", "pointer"},
+                {"extensions",
+                 {{"KHR_animation_pointer", {{"pointer", start + node + "/rotation"}}}}}};
+        }
+        column.json["extensionsUsed"] =
+            column.json["extensionsRequired"] = {"KHR_animation_pointer"};
+        return osgSkin::importMotion(column.save("pointer.gltf"));
+    };
+    const osgSkin::Motion plain = clipOf(false, ""), pointed = clipOf(true, "/nodes/");
+    EXPECT_EQ(pointed.rotations, plain.rotations);
+    expectError([&] { clipOf(true, "/cameras/"); }, "no animation");
+}
+
+TEST(GltfDialect, ReportsNodeConstraints) {
+    GltfColumn column;
+    column.json["nodes"][1]["extensions"]["VRMC_node_constraint"] = {{"specVersion", "1.0"}};
+    const test::Notices notices;
+    osgSkin::importRig(column.save("constraint.gltf"));
+    EXPECT_TRUE(notices.say("1 nodes have constraints (VRMC_node_constraint), which are not "
+                            "applied, \"middle\" among them"))
+        << notices.text();
+}
+
+TEST(GltfDialect, ReadsTheRolesOfVrmBones) {
+    for (const bool isFirst : {true, false}) {
+        GltfColumn column;
+        json& extensions = column.json["extensions"];
+        if (isFirst)
+            extensions["VRM"]["humanoid"]["humanBones"] = {{{"bone", "hips"}, {"node", 0}},
+                                                           {{"bone", "leftLowerArm"}, {"node", 2}}};
+        else
+            extensions["VRMC_vrm"]["humanoid"]["humanBones"] = {{"hips", {{"node", 0}}},
+                                                                {"leftLowerArm", {{"node", 2}}}};
+        const auto skeleton = osgSkin::importSkeleton(column.save("human.gltf"));
+        ASSERT_EQ(skeleton.joints.size(), 3u);
+        EXPECT_EQ(skeleton.joints[0].role, "Hips");
+        EXPECT_EQ(skeleton.joints[1].role, "");
+        EXPECT_EQ(skeleton.joints[2].role, "LeftLowerArm");
+    }
+}
+
+/// As Blender exports an armature alone: nodes, without a skin or a clip.
+TEST(GltfDialect, ReadsSkeletonOfNodesAlone) {
+    GltfColumn column;
+    column.json["meshes"].clear();
+    column.json.erase("skins");
+    column.json["nodes"].erase(column.meshNode);
+    column.json["scenes"][0]["nodes"] = {0};
+    const auto skeleton = osgSkin::importSkeleton(column.save("armature.gltf"));
+    ASSERT_EQ(skeleton.joints.size(), 3u);
+    EXPECT_EQ(skeleton.joints[2].name, "top");
+    EXPECT_EQ(skeleton.joints[2].centre, glm::dvec3(0, 2, 0));
+}
+
+/// A talking head.
+TEST(GltfDialect, FaceWithoutBonesIsARig) {
+    const auto withoutSkin = [] {
+        GltfColumn column;
+        column.json.erase("skins");
+        column.json["nodes"][column.meshNode].erase("skin");
+        column.attributes().erase("JOINTS_0");
+        column.attributes().erase("WEIGHTS_0");
+        return column;
+    };
+    const std::string still = withoutSkin().save("statue.gltf");
+    GltfColumn column = withoutSkin();
+    column.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", column.positions}}};
+    column.json["meshes"][0]["extras"]["targetNames"] = {"smile"};
+    column.animate("talk", column.meshNode, "weights", {0.0, 1.0}, {0, 1});
+    const osgSkin::ImportedRig rig = osgSkin::importRig(column.save("face.gltf"));
+    EXPECT_EQ(rig.rest.joints.size(), 1u);
+    ASSERT_EQ(rig.animations.size(), 1u);
+    EXPECT_EQ(rig.animations[0]->getChannels().size(), 1u);
+    expectError([&] { osgSkin::importRig(still); }, "no mesh with bones");
+}
+
+/// Draco packs a vertex into a byte or two, for which an uncompressed file has forty.
+TEST(GltfDialect, LimitsKnowHowMuchDracoPacks) {
+    GltfColumn column;
+    const std::size_t packed = column.accessor("SCALAR", std::vector<double>(100'000), 5121);
+    const json view = column.json["accessors"][packed]["bufferView"];
+    for (const std::size_t accessor : {column.positions, column.weights, column.jointIndices}) {
+        column.json["accessors"][accessor].erase("bufferView");
+        column.json["accessors"][accessor]["count"] = 150'000;
+    }
+    const auto errorOf = [&column] {
+        try {
+            osgSkin::importRig(column.save("packed.gltf"));
+        } catch (const osgSkin::Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    column.json["accessors"][column.positions]["count"] = 1'500'000;
+    EXPECT_NE(errorOf().find("maxSamples"), std::string::npos);
+    primitiveOf(column)["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+    EXPECT_EQ(errorOf().find("maxSamples"), std::string::npos) << errorOf();
+}
+
+TEST(GltfDialect, ReportsClipsThatMoveNoJoint) {
+    GltfColumn column;
+    column.bend();
+    const std::size_t proxy = column.node({{"name", "proxy"}});
+    column.json["scenes"][0]["nodes"].push_back(proxy);
+    column.animate("proxies", proxy, "rotation", {0.0, 1.0}, GltfColumn::turns({0, 90}));
+    const test::Notices notices;
+    EXPECT_EQ(osgSkin::importRig(column.save("proxies.gltf")).animations.size(), 1u);
+    EXPECT_TRUE(notices.say("1 clips move no joint and no morph target, and are left out, "
+                            "\"proxies\" among them"))
+        << notices.text();
+}

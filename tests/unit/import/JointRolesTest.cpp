@@ -73,6 +73,23 @@ TEST(JointRoles, FamilyOverridesWords) {
                                       JointPart::Head, JointPart::Hand}));
 }
 
+/// As in VRM files, whose nodes may have any names.
+TEST(JointRoles, FileOverridesNames) {
+    RestSkeleton body = importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+    const JointRoles named = recogniseJoints(body);
+    for (std::size_t j = 0; j < body.joints.size(); ++j) body.joints[j].role = named.roles[j];
+    std::vector<std::string> names;
+    for (const RestJoint& joint : body.joints) names.push_back(joint.name);
+    std::rotate(names.begin(), names.begin() + 5, names.end());
+    for (std::size_t j = 0; j < names.size(); ++j) body.joints[j].name = names[j];
+    const JointRoles roles = recogniseJoints(body);
+    EXPECT_EQ(roles.family, kStatedByFile);
+    for (std::size_t j = 0; j < names.size(); ++j)
+        if (!named.roles[j].empty()) {
+            EXPECT_EQ(roles.roles[j], named.roles[j]);
+        }
+}
+
 TEST(JointRoles, FamilyNeedsFourRoles) {
     JointNames family{"few", {}};
     family.roles = {{"Hips", {"base"}}, {"LeftHand", {"servo1"}}, {"RightHand", {"servo2"}}};

@@ -8,6 +8,7 @@
 
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinRig/JointRoles>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 #include <osgAnimation/Bone>
 #include <osgAnimation/BoneMapVisitor>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -157,6 +159,33 @@ TEST(LooseJoints, FeetBelowControlsFollowShins) {
         const auto foot = static_cast<std::size_t>(rig.rest.find("Foot.L"));
         EXPECT_LT(glm::distance(rig.rest.joints[foot].centre, glm::dvec3(0.1, 0.08, 0)), 1e-6);
     }
+}
+
+/// As Rigify's deformation bones are exported alone: all limbs hang on the root, on the floor.
+TEST(LooseJoints, PartsBesideTheHipsHangOnTheTrunk) {
+    Figure figure({});
+    nlohmann::json& nodes = figure.json["nodes"];
+    const auto hangOnRoot = [&](const std::string& name, const std::string& above,
+                                const std::vector<double>& place) {
+        const std::size_t n = figure.nodes.at(name);
+        nodes[n]["translation"] = place;
+        nlohmann::json& siblings = nodes[figure.nodes.at(above)]["children"];
+        siblings.erase(std::find(siblings.begin(), siblings.end(), n));
+        nodes[0]["children"].push_back(n);
+    };
+    for (const double x : {1.0, -1.0}) {
+        const std::string end = x > 0.0 ? ".L" : ".R";
+        hangOnRoot("UpperLeg" + end, "Hips", {x * 0.1, 0.95, 0});
+        hangOnRoot("UpperArm" + end, "Spine", {x * 0.2, 1.45, 0});
+    }
+    nodes[figure.nodes.at("Hips")]["name"] = "Spine0"; // nothing is called hips
+    const osgSkin::RestSkeleton rest = importRig(figure.save("rigify.gltf")).rest;
+    EXPECT_EQ(parentOf(rest, "UpperLeg.L"), "Spine0");
+    EXPECT_EQ(parentOf(rest, "UpperLeg.R"), "Spine0");
+    EXPECT_EQ(parentOf(rest, "UpperArm.L"), "Spine");
+    EXPECT_EQ(osgSkin::recogniseJoints(rest).joint("Hips"), rest.find("Spine0"));
+    const auto thigh = static_cast<std::size_t>(rest.find("UpperLeg.L"));
+    EXPECT_LT(glm::distance(rest.joints[thigh].centre, glm::dvec3(0.1, 0.95, 0)), 1e-5);
 }
 
 TEST(LooseJoints, AreReportedOnce) {

@@ -295,6 +295,81 @@ TEST_F(StandingPose, GettingUpFollowsTheUpAxis) {
         }
 }
 
+/// The rig's own skeleton in a space where z is up: the zero pose along y lies there.
+TEST_F(StandingPose, KeepsLyingActorWhereTheCallerSaysWhichAxisIsUp) {
+    Motion asleep = actor;
+    for (std::size_t f = 0; f < asleep.frames; ++f) {
+        for (std::size_t j = 0; j < joints; ++j) asleep.rotations[f * joints + j] = kIdentity;
+        asleep.rootPositions[f] = {0.0, 0.0, 0.1 * rig.joints[0].centre.y};
+    }
+    Motion expected = asleep; // in the rig's space
+    for (std::size_t f = 0; f < asleep.frames; ++f) {
+        expected.rotations[f * joints] = turnDegrees(-90, {1, 0, 0});
+        expected.rootPositions[f] = {0.0, 0.1 * rig.joints[0].centre.y, 0.0};
+    }
+    RetargetOptions options;
+    options.up = RetargetOptions::Up::Z;
+    EXPECT_LT(compare(retarget(asleep, rig, options), rig, expected).limbs, 1.0);
+}
+
+/// A file with curves for few joints has no others: hands and head are missing, and it rests in its
+/// first sample.
+TEST_F(StandingPose, CopiesRotationsOfFewJointsToTheSameSkeleton) {
+    Motion few = actor;
+    for (std::size_t f = 0; f < few.frames; ++f) {
+        for (std::size_t j = 0; j < joints; ++j) few.rotations[f * joints + j] = kIdentity;
+        few.rotations[f * joints] = turnDegrees(-90, {1, 0, 0});
+        few.rootPositions[f] = {0.0, 0.1 * rig.joints[0].centre.y, 0.0};
+    }
+    const Motion whole = few;
+    const std::vector<glm::dquat> lying(joints, turnDegrees(-90, {1, 0, 0}));
+    few = rebasedFrom(few, lying, true);
+    std::vector<std::size_t> kept;
+    for (std::size_t j = 0; j < joints; ++j) {
+        const std::string& name = few.skeleton.joints[j].name;
+        if (name.find("Hand") == std::string::npos && name.find("Head") == std::string::npos &&
+            name.find("Neck") == std::string::npos && name.find("Finger") == std::string::npos &&
+            name.find("Thumb") == std::string::npos)
+            kept.push_back(j);
+    }
+    Motion result = few;
+    result.skeleton.joints.clear();
+    result.rotations.clear();
+    std::vector<int> index(joints, -1);
+    for (const std::size_t j : kept) {
+        index[j] = int(result.skeleton.joints.size());
+        RestJoint joint = few.skeleton.joints[j];
+        if (joint.parent >= 0) joint.parent = index[std::size_t(joint.parent)];
+        result.skeleton.joints.push_back(joint);
+    }
+    for (std::size_t f = 0; f < few.frames; ++f)
+        for (const std::size_t j : kept) result.rotations.push_back(few.rotation(f, j));
+    RetargetOptions options;
+    options.up = RetargetOptions::Up::Y;
+    EXPECT_LT(compare(retarget(result, rig, options), rig, whole).heads, 2.0);
+}
+
+/// A jaw opens, and a sword beside the hips is drawn.
+TEST_F(StandingPose, JointsOfTheSameSkeletonMoveAgainstTheirParents) {
+    Motion draws = actor;
+    const auto hand = std::size_t(rig.find("RightHand"));
+    const auto parent = std::size_t(rig.joints[hand].parent);
+    const glm::dvec3 rest = rig.joints[hand].centre - rig.joints[parent].centre;
+    for (std::size_t f = 0; f < draws.frames; ++f)
+        draws.moves[hand].push_back(rest * (1.0 + double(f) / double(draws.frames)));
+    RetargetReport report;
+    const Clip clip = retarget(draws, rig, {}, &report);
+    ASSERT_EQ(clip.moves.size(), 1u);
+    for (const std::size_t f : {std::size_t(0), draws.frames / 2, draws.frames - 1})
+        EXPECT_LT(glm::distance(clip.moves.at(hand)[f], draws.moves.at(hand)[f]),
+                  1e-6 * glm::length(rest));
+    RestSkeleton broad = rig; // another body
+    for (RestJoint& joint : broad.joints) joint.centre.x *= 1.3;
+    EXPECT_TRUE(retarget(draws, broad, {}, &report).moves.empty());
+    EXPECT_TRUE(saysOf(report, "joint \"RightHand\" is translated; only translations of the root"))
+        << report.text().substr(0, 600);
+}
+
 /// Authors name sides from their own view.
 TEST_F(StandingPose, WarnsAboutBackwardFeet) {
     RestSkeleton swapped = rig;

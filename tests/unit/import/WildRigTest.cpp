@@ -24,12 +24,12 @@ using osgSkin::ImportedRig;
 using osgSkin::importRig;
 
 void expectStrip(const ImportedRig& rig) {
-    EXPECT_EQ(rig.body.mesh.positions.size(), 6u);
+    EXPECT_EQ(rig.body.mesh.positions.size(), 4u);
     ASSERT_EQ(rig.rest.joints.size(), 2u);
     EXPECT_EQ(rig.rest.joints[1].name, "high");
     EXPECT_NEAR(rig.rest.joints[1].centre.y, 2.0, 1e-6);
     ASSERT_EQ(rig.body.weights.size(), 2u);
-    EXPECT_EQ(rig.body.weights[0].entries.size() + rig.body.weights[1].entries.size(), 6u);
+    EXPECT_EQ(rig.body.weights[0].entries.size() + rig.body.weights[1].entries.size(), 4u);
 }
 
 /// A file of a triangle with a bone, a morph controller, and a skin, for which the sources and the

@@ -149,7 +149,8 @@ bool isWellPainted(const VertexWeights& weights) {
         }
         painted += any ? 1 : 0;
     }
-    return joints.size() > 1 &&
+    const bool isPlaceholder = joints.empty() || (joints.size() == 1 && *joints.begin() == 0);
+    return !isPlaceholder &&
            static_cast<double>(painted) >= 0.98 * static_cast<double>(weights.size());
 }
 

@@ -397,7 +397,7 @@ void warnUnused(CharacterSource& source, const VertexWeights& weights) {
     }
     if (gaps == 0 && source.rest.joints.size() == 1) return; // all vertices follow it in both cases
     const std::string why = gaps == 0
-                                ? "all vertices follow one joint"
+                                ? "all vertices follow the root joint"
                                 : std::to_string(gaps) + " of " + std::to_string(weights.size()) +
                                       " vertices have no weights";
     warn(source.notes, source.meshFile + ": " + why +

@@ -159,6 +159,7 @@ Motion after(const Motion& path, double seconds, const std::string& file) {
     rest.frames = 0;
     rest.rotations.clear();
     rest.rootPositions.clear();
+    rest.moves.clear(); // of joints that a prop does not follow
     for (double at = first; at <= last + 1e-6; at += 1.0) {
         const double whole = std::min(std::floor(at + 1e-6), last);
         const double part = at - whole < 1e-6 ? 0.0 : at - whole;

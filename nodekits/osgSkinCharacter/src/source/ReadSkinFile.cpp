@@ -5,10 +5,17 @@
 #include "source/ApplyOptions.h"
 #include "source/LoadReport.h"
 
+#include <osgSkin/GlmOsg>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinImport/ShareImages>
 
+#include <glm/gtc/quaternion.hpp>
+#include <osg/BoundingBox>
 #include <osg/Math>
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -38,6 +45,46 @@ RestSkeleton namedSkeleton(const SkinFile& skin, const osgDB::Options* options) 
         throw Error(std::string(error.what()) +
                     "; set \"skeleton\" to a file, or to { \"fit\": true } to fit one to the body");
     }
+}
+
+/// The skeleton after quarter turns about x.
+RestSkeleton turned(const RestSkeleton& rest, int quarters) {
+    const glm::dquat turn = glm::angleAxis(quarters * osg::PI_2, glm::dvec3(1.0, 0.0, 0.0));
+    RestSkeleton result = rest;
+    for (RestJoint& joint : result.joints) {
+        joint.centre = turn * joint.centre;
+        if (joint.tip) joint.tip = turn * *joint.tip;
+        joint.frame = glm::normalize(turn * joint.frame);
+    }
+    return result;
+}
+
+/// Tools write meshes with Y up and motions with Z up, or the reverse. Where most joints are
+/// outside the body, but nearly all are inside after one quarter turn about x, this turns the
+/// skeleton and says so.
+void turnIntoBody(CharacterSource& source, const std::string& file) {
+    constexpr double kRoom = 0.05, kFew = 0.5, kNearlyAll = 0.9;
+    osg::BoundingBoxd box;
+    for (const glm::dvec3& p : source.body.mesh.positions) box.expandBy(toOsg(p));
+    if (!box.valid() || source.rest.joints.size() < 3) return;
+    const double room = kRoom * 2.0 * box.radius();
+    box.expandBy(box._min - osg::Vec3d(room, room, room));
+    box.expandBy(box._max + osg::Vec3d(room, room, room));
+    const auto isInside = [&box](const RestSkeleton& rest, double share) {
+        const auto inside =
+            std::count_if(rest.joints.begin(), rest.joints.end(), [&box](const RestJoint& joint) {
+                return box.contains(toOsg(joint.centre));
+            });
+        return double(inside) >= share * double(rest.joints.size());
+    };
+    if (isInside(source.rest, kFew)) return;
+    const RestSkeleton ahead = turned(source.rest, 1), back = turned(source.rest, -1);
+    const bool fitsAhead = isInside(ahead, kNearlyAll), fitsBack = isInside(back, kNearlyAll);
+    if (fitsAhead == fitsBack) return; // neither, or a body around the origin
+    source.rest = fitsAhead ? ahead : back;
+    warn(source.notes, source.file + ": " + file +
+                           " has another axis up than the body: the skeleton is rotated by a "
+                           "quarter turn about x, and its joints lie inside");
 }
 
 std::vector<std::string> filesOf(const SkinFile& skin, const CharacterSource& source) {
@@ -84,6 +131,7 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
         stages.begin("skeleton", LoadStages::kSkeleton);
         source.rest =
             withFileContext(file, [&] { return namedSkeleton(skin, options.readOptions.get()); });
+        if (skin.skeleton != skin.mesh) turnIntoBody(source, skin.skeleton);
     }
     const osgDB::Options* read = options.readOptions.get();
     source.statedUnit = importUnit(skin.mesh, read);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/AssimpScene.h"
 
+#include "assimp/FbxDocument.h"
+#include "assimp/FbxMotion.h"
 #include "files/FileText.h"
 #include "scene/SceneMorphs.h"
 
@@ -425,26 +427,6 @@ void readNodes(const aiScene& scene, const std::string& path, const ReadLimits& 
 
 // --- files that Assimp does not read as they are ---
 
-/// Renames the connections of an object's property to another object, text or binary, to those
-/// between two properties: Assimp's reader refuses the former and ignores the latter.
-void renamePropertyConnections(std::string& fbx) {
-    // In binary files: a record called "C", and a string of two bytes.
-    static const std::string binary("\x01"
-                                    "CS\x02\0\0\0PO",
-                                    9);
-    for (auto at = fbx.find(binary); at != std::string::npos; at = fbx.find(binary, at + 1))
-        fbx[at + binary.size() - 1] = 'P';
-    static const std::string text = "\"PO\"";
-    for (auto at = fbx.find(text); at != std::string::npos; at = fbx.find(text, at + 1)) {
-        std::size_t end = at; // of the record's name
-        while (end > 0 && (fbx[end - 1] == ' ' || fbx[end - 1] == '\t')) --end;
-        const bool isConnection =
-            end > 1 && fbx.compare(end - 2, 2, "C:") == 0 &&
-            (end == 2 || std::isspace(static_cast<unsigned char>(fbx[end - 3])) != 0);
-        if (isConnection) fbx[at + 2] = 'P';
-    }
-}
-
 /// An attribute's value in an XML file, to read or to replace.
 struct XmlValue {
     std::size_t begin = 0, size = 0;
@@ -547,16 +529,24 @@ private:
 };
 
 /// Changes what Assimp will read of an FBX or Collada file.
-void editFile(const std::string& path, const ReadLimits& limits, Assimp::Importer& importer) {
+/// \return an FBX file's bytes; else empty
+std::string editFile(const std::string& path, const ReadLimits& limits,
+                     Assimp::Importer& importer) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    if (extension != "fbx" && extension != "dae") return;
-    std::string bytes = readText(path, limits);
+    if (extension != "fbx" && extension != "dae") return {};
+    std::string bytes = readText(path, limits), fbx;
     if (extension == "fbx") {
         renamePropertyConnections(bytes);
-    } else if (const std::size_t morphs = removeMorphs(path, bytes)) {
-        warn(path, std::to_string(morphs) + " morph controllers are not supported; ignored");
+        fbx = bytes;
+    } else {
+        if (bytes.find("<authoring_tool>Assimp") != std::string::npos)
+            warn(path, "written by Assimp, which loses keys of animations or writes their times in "
+                       "milliseconds");
+        if (const std::size_t morphs = removeMorphs(path, bytes))
+            warn(path, std::to_string(morphs) + " morph controllers are not supported; ignored");
     }
     importer.SetIOHandler(new EditedFile(path, std::move(bytes)));
+    return fbx;
 }
 
 // --- the file ---
@@ -591,7 +581,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     SourceScene result;
     result.bytes = requireReadable(path, limits);
-    editFile(path, limits, importer);
+    const std::string fbx = editFile(path, limits, importer);
     const aiScene* scene = nullptr;
     std::string reason;
     try {
@@ -600,8 +590,12 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     } catch (const std::exception& error) {
         reason = error.what();
     }
-    if (scene == nullptr || scene->mRootNode == nullptr)
+    if (scene == nullptr || scene->mRootNode == nullptr) {
+        if (fbx.find("Open Asset Import Library") != std::string::npos)
+            reason += "; Assimp does not read binary FBX files that it wrote: export text "
+                      "(assimp export -ffbxa), or glTF";
         failFile(path, reason.empty() ? "cannot be read" : reason);
+    }
     for (unsigned m = 0; m < scene->mNumMeshes; ++m)
         if (scene->mMeshes[m] == nullptr) failFile(path, "Assimp returned a null mesh");
     readNodes(*scene, path, limits, result);
@@ -618,6 +612,8 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
         result.animations.push_back(std::make_shared<const SourceAnimation>(std::move(animation)));
     }
     morphs.warnLosses(path);
+    correctFbx(fbx, path, limits, result);
+    joinEqualVertices(result);
     result.toWorld = toWorld(*scene, path);
     result.metresPerUnit = metresPerUnit(*scene, path);
     return result;

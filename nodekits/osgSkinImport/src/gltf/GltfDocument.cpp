@@ -441,6 +441,27 @@ private:
 
     // --- animations ---
 
+    /// Reads a channel of KHR_animation_pointer as an ordinary one if its pointer is
+    /// "/nodes/3/rotation" or the like; else `path` becomes the pointer.
+    static void takePointer(const json& target, std::string& path, json& node) {
+        static const std::string start = "/nodes/";
+        static const json::json_pointer place("/extensions/KHR_animation_pointer/pointer");
+        if (!target.contains(place) || !target.at(place).is_string()) return;
+        path = target.at(place).get<std::string>();
+        const std::size_t slash = path.find('/', start.size());
+        if (path.rfind(start, 0) != 0 || slash == std::string::npos) return;
+        const std::string number = path.substr(start.size(), slash - start.size());
+        if (number.empty() || number.size() > 9 ||
+            number.find_first_not_of("0123456789") != std::string::npos)
+            return;
+        const std::string property = path.substr(slash + 1);
+        for (const char* known : {"translation", "rotation", "scale", "weights"})
+            if (property == known) {
+                path = property;
+                node = std::stoul(number);
+            }
+    }
+
     void readAnimations() {
         using Path = GltfAnimation::Path;
         using Interpolation = GltfAnimation::Interpolation;
@@ -478,7 +499,9 @@ private:
                 GltfAnimation::Channel known;
                 known.sampler = _file.index(channel.at("sampler"), keys.size(), sampled);
                 const json& target = channel.at("target");
-                const std::string& path = target.at("path").get_ref<const std::string&>();
+                std::string path = target.at("path").get<std::string>();
+                json node = target.value("node", json());
+                if (path == "pointer") takePointer(target, path, node);
                 if (path == "translation")
                     known.path = Path::Translation;
                 else if (path == "rotation")
@@ -489,9 +512,8 @@ private:
                     if (otherPath.empty()) otherPath = path.substr(0, 100);
                     continue;
                 }
-                const auto node = target.find("node");
-                if (node != target.end()) {
-                    known.node = _file.indexOf(*node, "nodes", channels);
+                if (!node.is_null()) {
+                    known.node = _file.indexOf(node, "nodes", channels);
                     if (!moved.emplace(*known.node, known.path).second) ++movedTwice;
                 }
                 // Channels may share a sampler; each has its own copy of the keys.
@@ -506,7 +528,7 @@ private:
                                  std::to_string(movedTwice) + " are ignored");
         if (!otherPath.empty())
             warn(_file.path, "unsupported channel paths ignored, the first " + inQuotes(otherPath) +
-                                 "; supported: translation, rotation, scale and weights");
+                                 "; supported: translation, rotation, scale and weights of nodes");
     }
 
     GltfDocument& _document;

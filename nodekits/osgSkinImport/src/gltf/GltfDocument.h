@@ -262,6 +262,10 @@ struct DracoMesh {
     std::map<std::string, std::vector<std::uint32_t>> joints;
 };
 
+/// Counts the data of Draco-compressed primitives as larger: a file's limits are relative to its
+/// size, and Draco packs a vertex with all attributes into one byte to six.
+void countDraco(GltfFile& file);
+
 /// Decodes a Draco-compressed primitive.
 /// \throw osgSkin::Error with `where` if decoding fails, or if this build is without Draco
 DracoMesh unpackDraco(const GltfDocument& document, const GltfPrimitive& primitive,

@@ -9,9 +9,31 @@
 #include <draco/compression/decode.h>
 #endif
 
+#include <algorithm>
 #include <memory>
+#include <set>
+#include <string>
 
 namespace osgSkin {
+
+using nlohmann::json;
+
+void countDraco(GltfFile& file) {
+    constexpr std::size_t kRatio = 32;
+    static const json::json_pointer place("/extensions/KHR_draco_mesh_compression/bufferView");
+    const json none = json::array();
+    const json views = file.json.value("bufferViews", none);
+    std::set<std::size_t> packed;
+    for (const json& mesh : file.json.value("meshes", none))
+        for (const json& primitive : mesh.value("primitives", none))
+            if (primitive.contains(place) && primitive.at(place).is_number_unsigned())
+                packed.insert(primitive.at(place).get<std::size_t>());
+    std::size_t bytes = 0;
+    for (const std::size_t view : packed)
+        if (view < views.size())
+            bytes += std::min(views[view].value("byteLength", std::size_t(0)), file.allBytes());
+    file.ownBytes += (kRatio - 1) * std::min(bytes, file.allBytes());
+}
 
 #ifdef OSGSKIN_HAS_DRACO
 

@@ -128,9 +128,23 @@ private:
         std::string bytes(packed.count * packed.stride, '\0');
         const char* const begin = from.data() + packed.offset;
         if (!packed.decode(reinterpret_cast<const unsigned char*>(begin), bytes))
-            fail("bytes that can be unpacked by this build's meshoptimizer");
+            fail("bytes that can be unpacked by this build's meshoptimizer (" +
+                 std::to_string(MESHOPTIMIZER_VERSION / 1000) + "." +
+                 std::to_string(MESHOPTIMIZER_VERSION % 1000 / 10) + ")" +
+                 (hasNewCodec(packed, begin)
+                      ? "; its codec is newer, and read by meshoptimizer 1.0 and later: pack it "
+                        "without (gltfpack -cc in place of -cz)"
+                      : ""));
         packed.unfilter(bytes);
         replace(view, packed, std::move(bytes));
+    }
+
+    /// Whether vertices are packed by version 1 of their codec, which meshoptimizer 0.22 does not
+    /// read.
+    static bool hasNewCodec(const Packed& packed, const char* bytes) {
+        constexpr unsigned char kVersion1 = 0xa1;
+        return packed.mode == "ATTRIBUTES" && packed.length > 0 &&
+               static_cast<unsigned char>(*bytes) == kVersion1;
     }
 
     void replace(json& view, const Packed& packed, std::string bytes) {

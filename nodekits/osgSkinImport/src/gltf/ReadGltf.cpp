@@ -5,11 +5,14 @@
 #include "files/UniqueName.h"
 #include "gltf/GltfDocument.h"
 
+#include <osgSkinRig/JointRoles>
+
 #include <osg/Math>
 
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
@@ -37,13 +40,13 @@ constexpr const char* kHarmless[] = {"KHR_draco_mesh_compression",
                                      "EXT_lights_",
                                      "MSFT_",
                                      "KHR_xmp",
+                                     "KHR_animation_pointer",
                                      "VRM",
                                      "KHR_techniques",
                                      "AGI_"};
 
 /// Extensions that affect positions or motion even if the file does not require them.
-constexpr const char* kMissed[] = {"KHR_animation_pointer", "EXT_mesh_gpu_instancing",
-                                   "KHR_node_visibility"};
+constexpr const char* kMissed[] = {"EXT_mesh_gpu_instancing", "KHR_node_visibility"};
 
 bool isHarmless(const std::string& extension) {
     return std::any_of(std::begin(kHarmless), std::end(kHarmless),
@@ -71,6 +74,22 @@ void noteExtensions(const GltfFile& file) {
             std::find(required.begin(), required.end(), missed) == required.end())
             warn(file.path, std::string("uses the extension \"") + missed +
                                 "\", which is not known; read without it");
+}
+
+/// Reports nodes that VRM 1.0's constraints would move.
+void noteConstraints(const GltfFile& file) {
+    std::size_t constrained = 0;
+    std::string first;
+    for (const json& node : file.json.value("nodes", json::array())) {
+        const auto extensions = node.find("extensions");
+        if (extensions == node.end() || !extensions->contains("VRMC_node_constraint")) continue;
+        if (constrained++ == 0 && node.contains("name")) first = node.at("name");
+    }
+    if (constrained > 0)
+        warn(file.path, std::to_string(constrained) +
+                            " nodes have constraints (VRMC_node_constraint), which are not "
+                            "applied" +
+                            (first.empty() ? "" : ", " + inQuotes(first) + " among them"));
 }
 
 /// Whether the figure faces -Z, as in VRM 0, and not +Z, as in glTF.
@@ -190,6 +209,37 @@ std::vector<int> addNodes(const GltfDocument& document, const std::vector<std::s
 
 // --- figures without a skin, made of rigid parts ---
 
+/// The nodes that a VRM file says are its human's bones, by VRM's names of these.
+std::map<std::string, std::size_t> humanBones(const GltfDocument& document) {
+    std::map<std::string, std::size_t> result;
+    for (const std::string extension : {"VRM", "VRMC_vrm"}) {
+        const json::json_pointer bones("/extensions/" + extension + "/humanoid/humanBones");
+        if (!document.file.json.contains(bones)) continue;
+        for (const auto& [key, bone] : document.file.json.at(bones).items()) {
+            const auto node = bone.find("node");
+            if (node == bone.end() || !node->is_number_unsigned()) continue;
+            const json name = bone.value("bone", json()); // VRM 0 has a list
+            if (const auto n = node->get<std::size_t>(); n < document.nodes.size())
+                result.emplace(name.is_string() ? name.get<std::string>() : key, n);
+        }
+    }
+    return result;
+}
+
+/// Tells nodes the roles that a VRM file says they have.
+void setRoles(const GltfDocument& document, const std::vector<int>& indexOf, SourceScene& scene) {
+    std::vector<std::string> names;
+    std::vector<int> nodes;
+    for (const auto& [name, node] : humanBones(document)) {
+        if (indexOf[node] < 0) continue;
+        names.push_back(name);
+        nodes.push_back(indexOf[node]);
+    }
+    const std::vector<std::string> roles = recogniseNames(names);
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+        scene.nodes[static_cast<std::size_t>(nodes[b])].role = roles[b];
+}
+
 /// The names of the nodes that are joints of a skin, or bones of a VRM's human, or that a clip
 /// moves.
 std::set<std::string> namedJoints(const GltfDocument& document, const SourceScene& scene) {
@@ -200,16 +250,7 @@ std::set<std::string> namedJoints(const GltfDocument& document, const SourceScen
                 result.insert(track.node);
     for (const GltfSkin& skin : document.skins)
         for (const std::size_t joint : skin.joints) result.insert(document.nodes[joint].name);
-    for (const std::string extension : {"VRM", "VRMC_vrm"}) {
-        const json::json_pointer bones("/extensions/" + extension + "/humanoid/humanBones");
-        if (!document.file.json.contains(bones)) continue;
-        for (const json& bone : document.file.json.at(bones)) {
-            const auto node = bone.find("node");
-            if (node == bone.end() || !node->is_number_unsigned()) continue;
-            if (const auto n = node->get<std::size_t>(); n < document.nodes.size())
-                result.insert(document.nodes[n].name);
-        }
-    }
+    for (const auto& [name, node] : humanBones(document)) result.insert(document.nodes[node].name);
     return result;
 }
 
@@ -228,17 +269,6 @@ glm::dmat4 pathTo(const SourceNode& above, const SourceNode& node, const SourceS
     for (const SourceNode* at = &node; at != &above;
          at = &scene.nodes[static_cast<std::size_t>(at->parent)])
         result = at->matrix * result;
-    return result;
-}
-
-/// A copy of a mesh that follows one joint.
-std::shared_ptr<const SourceMesh> boundTo(const std::string& joint, const glm::dmat4& toJoint,
-                                          const SourceMesh& mesh) {
-    SourceBone bone{joint, toJoint, {}};
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        bone.weights.push_back({static_cast<std::uint32_t>(v), 1.0f});
-    auto result = std::make_shared<SourceMesh>(mesh);
-    result->bones.push_back(std::move(bone));
     return result;
 }
 
@@ -267,7 +297,9 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
     GltfFile file = GltfFile::read(path, limits);
     try {
         noteExtensions(file);
+        noteConstraints(file);
         unpackMeshopt(file);
+        countDraco(file);
         GltfDocument document(file);
         nameHumanBones(document);
         const std::string rootName = nameNodes(document);
@@ -275,6 +307,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         const std::vector<std::size_t> shown = shownMeshes(document);
         const std::vector<int> indexOf =
             addNodes(document, rootsWithJoints(document, shown), rootName, scene);
+        setRoles(document, indexOf, scene);
         addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
         bindRigidParts(namedJoints(document, scene), scene);

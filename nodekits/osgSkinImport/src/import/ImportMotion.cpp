@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <new>
 #include <string>
@@ -233,11 +234,24 @@ glm::dmat4 localMatrix(const SourceTrack* track, const SourceNode& node, const M
     return result;
 }
 
+/// Drops moves that are none.
+void dropStill(Motion& motion) {
+    const double figure = unitScale(motion.skeleton);
+    for (auto move = motion.moves.begin(); move != motion.moves.end();) {
+        const glm::dvec3 first = figure * move->second.front();
+        const bool moves =
+            std::any_of(move->second.begin(), move->second.end(), [&](const glm::dvec3& position) {
+                return isMoved(figure * position, first);
+            });
+        move = moves ? std::next(move) : motion.moves.erase(move);
+    }
+}
+
 /// Samples an animation at equal steps, 30 a second or more, and at every key (see SampleGrid).
 /// Converts rotations to frames that are aligned with the world at rest, as Motion stores them.
 ///
-/// Uses the positions of the root only, or of the joint that rootMotionJoint() finds; those of
-/// other joints are dropped, with a notice.
+/// The motion's root is that joint, or the one that rootMotionJoint() finds; other joints that
+/// move against their parents are in Motion::moves.
 /// \throw osgSkin::Error with `path` if no track has a key, the key times are invalid, or joints
 ///        times frames are more than `maxSamples`.
 Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skeleton,
@@ -272,7 +286,6 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
     motion.frameTime = grid.samples() > 1 ? grid.step() : 1.0 / rate;
     if (!std::isfinite(motion.frameTime) || !(motion.frameTime > 0.0))
         failFile(path, "the time between its samples is not positive");
-    warnUnusedMoves(skeleton.rest, moved, carried, path);
     warnScales(tracks, skeleton, path);
 
     const std::size_t joints = tracks.size();
@@ -280,6 +293,15 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
                                       glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
     std::vector<ReflectedRotation> world(joints); // in the nodes' own frames
     std::vector<glm::dquat> aligned(joints);      // the same, as rotations from rest
+    std::vector<std::size_t> moving; // of the carried joints, with those that another carries
+    for (std::size_t k = 1; k < carried.joints.size(); ++k) {
+        const std::size_t j = carried.joints[k];
+        const int up = motion.skeleton.joints[k].parent;
+        const bool isCut = skeleton.rest.joints[j].parent !=
+                           static_cast<int>(carried.joints[static_cast<std::size_t>(up)]);
+        if (moved[j] || isCut) moving.push_back(k);
+    }
+    std::vector<glm::dmat4> places(moving.empty() ? 0 : joints); // of the nodes, in the scene
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
         for (std::size_t j = 0; j < joints; ++j) {
@@ -289,6 +311,17 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
                            .below(localRotation(tracks[j], *skeleton.nodes[j], moment),
                                   localScale(tracks[j], *skeleton.nodes[j]));
             aligned[j] = world[j].rotation * glm::conjugate(skeleton.worldRotations[j]);
+        }
+        for (std::size_t j = 0; j < places.size(); ++j) {
+            const int up = skeleton.rest.joints[j].parent;
+            places[j] = (up < 0 ? skeleton.aboveRoot : places[static_cast<std::size_t>(up)]) *
+                        localMatrix(tracks[j], *skeleton.nodes[j], moment);
+        }
+        for (const std::size_t k : moving) {
+            const auto parent = static_cast<std::size_t>(motion.skeleton.joints[k].parent);
+            const std::size_t j = carried.joints[k], up = carried.joints[parent];
+            motion.moves[k].push_back(glm::conjugate(aligned[up]) *
+                                      glm::dvec3(places[j][3] - places[up][3]));
         }
         for (std::size_t k = 0; k < carried.joints.size(); ++k) {
             const glm::dquat& own = aligned[carried.joints[k]];
@@ -309,6 +342,7 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
         }
         motion.rootPositions.push_back(position);
     }
+    dropStill(motion);
     return motion;
 }
 
@@ -319,6 +353,10 @@ void validate(const Motion& motion, const std::string& path) {
         const std::string where = "frame " + std::to_string(f) + ": ";
         if (!isInRange(motion.rootPositions[f]))
             failFile(path, where + "the root's position is not finite, or beyond -1e18 to 1e18");
+        for (const auto& [joint, positions] : motion.moves)
+            if (!isInRange(positions[f]))
+                failFile(path, where + "joint " + inQuotes(motion.skeleton.joints[joint].name) +
+                                   " has a position that is not finite, or beyond -1e18 to 1e18");
         for (std::size_t j = 0; j < joints; ++j)
             if (!isFinite(motion.rotation(f, j)))
                 failFile(path, where + "joint " + inQuotes(motion.skeleton.joints[j].name) +
@@ -376,6 +414,8 @@ void dropFirst(Motion& motion, std::size_t count) {
     motion.rotations.erase(motion.rotations.begin(), motion.rotations.begin() + rotations);
     motion.rootPositions.erase(motion.rootPositions.begin(),
                                motion.rootPositions.begin() + static_cast<std::ptrdiff_t>(count));
+    for (auto& [joint, positions] : motion.moves)
+        positions.erase(positions.begin(), positions.begin() + static_cast<std::ptrdiff_t>(count));
     motion.frames -= count;
 }
 

@@ -306,12 +306,19 @@ osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkele
     osgAnimation::AnimationList result;
     const std::vector<std::string> names = clipNames(scene);
     std::set<std::string> differing;
+    std::vector<std::string> still;
     for (std::size_t a = 0; a < scene.animations.size(); ++a) {
         const MorphTracks morphs = morphTracksOf(*scene.animations[a], driven, differing);
         if (const auto clip =
                 makeClip(*scene.animations[a], names[a], joints, moves, driven, morphs, path))
             result.push_back(clip);
+        else if (!scene.animations[a]->tracks.empty())
+            still.push_back(names[a]);
     }
+    if (!still.empty())
+        warn(path, std::to_string(still.size()) +
+                       " clips move no joint and no morph target, and are left out, " +
+                       inQuotes(still.front()) + " among them");
     if (!differing.empty())
         warn(path, std::to_string(differing.size()) + " morph targets, " +
                        inQuotes(*differing.begin()) +
@@ -346,9 +353,14 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) tr
     if (!format.hasSkeleton && format.hasMesh)
         refuse(path, limits, none + "; a .skin file can name a skeleton for it, or fit one");
     if (format.reader == FileFormat::Bvh) refuse(path, limits, none + motionHint(path));
-    const std::shared_ptr<const SourceScene> source = readSourceScene(path, options);
+    std::shared_ptr<const SourceScene> source = readSourceScene(path, options);
+    if (!isRigged(*source)) {
+        const auto face = std::make_shared<SourceScene>(*source);
+        if (!bindFace(*face))
+            failFile(path, none + (source->animations.empty() ? "" : motionHint(path)));
+        source = face;
+    }
     const SourceScene& scene = *source;
-    if (!isRigged(scene)) failFile(path, none + (scene.animations.empty() ? "" : motionHint(path)));
 
     ImportedRig result;
     CornerMesh body = readSceneMesh(scene, path, options);

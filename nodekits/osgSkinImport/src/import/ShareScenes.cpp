@@ -49,8 +49,11 @@ Scene readFile(const std::string& path, const ReadLimits& limits) {
     SourceScene scene =
         format.reader == FileFormat::Gltf ? readGltf(path, limits) : readAssimpScene(path, limits);
     separateNames(scene, path);
+    dropCoarseLevels(scene, path);
+    takeClipScales(scene);
     addMissingBones(scene, path);
     attachLooseJoints(scene, path, limits);
+    bindFreeMeshes(scene, path);
     return std::make_shared<const SourceScene>(std::move(scene));
 }
 

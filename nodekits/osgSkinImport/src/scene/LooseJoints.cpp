@@ -40,9 +40,54 @@ bool areApart(const RestSkeleton& rest, int a, int b) {
     return !rest.isInSubtree(a, b) && !rest.isInSubtree(b, a);
 }
 
+double distanceOf(const RestSkeleton& rest, int a, int b) {
+    return glm::distance(rest.joints[static_cast<std::size_t>(a)].centre,
+                         rest.joints[static_cast<std::size_t>(b)].centre);
+}
+
+/// Where thighs hang on the rig's root beside the hips, as in Rigify's deformation bones, all
+/// children of the root hang on the joint of the trunk that is nearest.
+void findLooseParts(const RestSkeleton& rest, const JointRoles& roles, std::vector<Loose>& result) {
+    const int hips = roles.joint("Hips"), left = roles.joint("LeftUpperLeg"),
+              right = roles.joint("RightUpperLeg");
+    if (hips < 0 || left < 0 || right < 0) return;
+    const auto parent = [&rest](int joint) {
+        return rest.joints[static_cast<std::size_t>(joint)].parent;
+    };
+    const int root = parent(hips);
+    if (root < 0 || parent(left) != root || parent(right) != root) return;
+    const int head = roles.joint("Head");
+    for (const int child : rest.children(root)) {
+        if (rest.isInSubtree(hips, child)) continue;
+        const std::string& role = roles.roles[static_cast<std::size_t>(child)];
+        const auto ends = [&role](const char* part) {
+            return role.size() > 4 && role.find(part) != std::string::npos;
+        };
+        int carrier = hips;
+        const auto offer = [&](const std::string& to) {
+            constexpr double kLong = 0.5; // a head is longer than a vertebra
+            const auto reach = [&](int joint) {
+                return distanceOf(rest, child, joint) * (joint == head ? kLong : 1.0);
+            };
+            const auto found = roles.joints.find(to);
+            if (found == roles.joints.end()) return;
+            for (const int joint : found->second)
+                if (reach(joint) < reach(carrier)) carrier = joint;
+        };
+        const bool isArm = ends("Collar") || ends("UpperArm");
+        if (!ends("UpperLeg")) offer("Spine");
+        if (!ends("UpperLeg") && !isArm) {
+            offer("Neck");
+            offer("Head");
+        }
+        const int collar = roles.joint(role.substr(0, role.find("Upper")) + "Collar");
+        if (ends("UpperArm") && collar >= 0) carrier = collar;
+        result.push_back({child, carrier});
+    }
+}
+
 /// Joints of arms and legs that are not below their limb's previous bone.
-void findLooseLimbs(const RestSkeleton& rest, std::vector<Loose>& result) {
-    const JointRoles roles = recogniseJoints(rest);
+void findLooseLimbs(const RestSkeleton& rest, const JointRoles& roles, std::vector<Loose>& result) {
     const std::vector<const char*> limbs[] = {{"UpperLeg", "LowerLeg", "Foot", "Toe"},
                                               {"UpperArm", "LowerArm", "Hand"}};
     for (const std::string side : {"Left", "Right"})
@@ -223,7 +268,9 @@ void attachLooseJoints(SourceScene& scene, const std::string& path, const ReadLi
     const SceneSkeleton skeleton = findSceneSkeleton(scene);
     if (skeleton.nodes.empty() || skeleton.nodes.size() > limits.joints) return;
     std::vector<Loose> loose;
-    findLooseLimbs(skeleton.rest, loose);
+    const JointRoles roles = recogniseJoints(skeleton.rest);
+    findLooseParts(skeleton.rest, roles, loose);
+    findLooseLimbs(skeleton.rest, roles, loose);
     findLooseCopies(skeleton.rest, loose);
     if (loose.empty()) return;
     const auto nodeOf = [&](int joint) {

@@ -75,15 +75,20 @@ ReducedSkeleton::ReducedSkeleton(const RestSkeleton& skeleton, std::size_t root)
 
 void warnUnusedMoves(const RestSkeleton& skeleton, const std::vector<bool>& moved,
                      const ReducedSkeleton& carried, const std::string& path) {
+    constexpr std::size_t kMaxNames = 6;
     const std::vector<std::size_t>& joints = carried.joints;
+    std::string names;
+    std::size_t count = 0;
     for (std::size_t i = 1; i < joints.size(); ++i) {
-        const std::size_t j = joints[i];
-        if (!moved[j]) continue;
-        warn(path, "joint \"" + skeleton.joints[j].name +
-                       "\" is translated; only translations of \"" +
-                       skeleton.joints[joints.front()].name + "\" are used");
-        return;
+        if (!moved[joints[i]]) continue;
+        if (++count <= kMaxNames)
+            names += (count > 1 ? ", " : "") + inQuotes(skeleton.joints[joints[i]].name);
     }
+    if (count > kMaxNames) names += " and " + std::to_string(count - kMaxNames) + " more";
+    if (count > 0)
+        warn(path, (count == 1 ? "joint " + names + " is" : "joints " + names + " are") +
+                       " translated; only translations of " +
+                       inQuotes(skeleton.joints[joints.front()].name) + " are used");
 }
 
 } // namespace osgSkin

@@ -94,108 +94,6 @@ glm::dvec3 placed(const glm::dmat4& matrix, const glm::vec3& vertex) {
     return glm::dvec3(matrix * glm::dvec4(vertex, 1.0));
 }
 
-struct Box {
-    glm::dvec3 low{0.0}, high{0.0};
-    bool valid = false;
-
-    void add(const glm::dvec3& p) {
-        low = valid ? glm::min(low, p) : p;
-        high = valid ? glm::max(high, p) : p;
-        valid = true;
-    }
-    double size() const {
-        const glm::dvec3 extent = high - low;
-        return std::max({extent.x, extent.y, extent.z});
-    }
-};
-
-/// Distinguishes scenery (a floor, a sky, a stand) from unskinned parts of the figure (eyes, hair).
-/// A mesh is scenery if it does not overlap the bounds of the skins, or is more than half as large
-/// again as these.
-class Scenery {
-public:
-    Scenery(const SourceScene& scene, const SceneBind& bind) : _scene(scene), _bind(bind) {
-        for (const SourceNode* node : bind.nodes())
-            for (const std::size_t mesh : node->meshes) {
-                if (scene.meshes[mesh]->bones.empty()) continue;
-                const Box box = boxOf(*node, mesh);
-                if (!box.valid) continue;
-                _skins.add(box.low);
-                _skins.add(box.high);
-            }
-    }
-
-    /// Whether one of a node's meshes is scenery. Always false in a scene without a skin.
-    /// \param node of the mesh
-    /// \param mesh without bones, and not parented to a joint
-    bool has(const SourceNode& node, std::size_t mesh) const {
-        constexpr double kLarger = 1.5; // relative to all skins together
-        if (!_skins.valid) return false;
-        const Box box = boxOf(node, mesh);
-        if (!box.valid) return false;
-        if (box.size() > kLarger * _skins.size()) return true;
-        for (int axis = 0; axis < 3; ++axis)
-            if (box.low[axis] > _skins.high[axis] || box.high[axis] < _skins.low[axis]) return true;
-        return false;
-    }
-
-private:
-    Box boxOf(const SourceNode& node, std::size_t mesh) const {
-        const glm::dmat4 toScene = _bind.mesh(node, mesh);
-        Box box;
-        for (const glm::vec3& vertex : _scene.meshes[mesh]->positions)
-            box.add(placed(toScene, vertex));
-        return box;
-    }
-
-    const SourceScene& _scene;
-    const SceneBind& _bind;
-    Box _skins;
-};
-
-bool isOther(const glm::vec3& a, const glm::vec3& b) {
-    return glm::length(a - b) > 1e-3f * std::max(glm::length(a), glm::length(b));
-}
-
-/// A quaternion and its negative are the same rotation.
-bool isOther(const glm::quat& a, const glm::quat& b) {
-    const glm::quat p = glm::normalize(a), q = glm::normalize(b);
-    const float sign = glm::dot(p, q) < 0.0f ? -1.0f : 1.0f;
-    return std::max({std::abs(p.w - sign * q.w), std::abs(p.x - sign * q.x),
-                     std::abs(p.y - sign * q.y), std::abs(p.z - sign * q.z)}) > 1e-3f;
-}
-
-template <typename Value>
-bool anyOther(const std::vector<SourceKey<Value>>& keys, const Value& rest) {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&rest](const SourceKey<Value>& key) { return isOther(key.value, rest); });
-}
-
-/// Whether a track moves a node from its own transform.
-bool moves(const SourceTrack& track, const SourceNode& node) {
-    NodeTransform rest = decompose(node.matrix);
-    if (rest.scale.x < 0.0) { // mirrored: flip all axes, which changes the rotation
-        glm::dmat4 unmirrored = -node.matrix;
-        rest.rotation = rotationOf(unmirrored);
-        rest.scale = {rest.scale.x, -rest.scale.y, -rest.scale.z};
-    }
-    return anyOther(track.positions, glm::vec3(rest.translation)) ||
-           anyOther(track.rotations, glm::quat(rest.rotation)) ||
-           anyOther(track.scales, glm::vec3(rest.scale));
-}
-
-/// The nodes that some clip moves from their own transform. Exporters also write constant tracks.
-std::set<const SourceNode*> movedNodes(const SourceScene& scene, const SceneBind& bind) {
-    std::set<const SourceNode*> result;
-    for (const auto& animation : scene.animations)
-        for (const SourceTrack& track : animation->tracks) {
-            const SourceNode* const node = bind.find(track.node);
-            if (node != nullptr && result.count(node) == 0 && moves(track, *node))
-                result.insert(node);
-        }
-    return result;
-}
-
 /// The joints that meshes may be parented to; none if nothing is skinned.
 std::set<const SourceNode*> jointsOfSkins(const SourceScene& scene, const SceneBind& bind) {
     for (const SourceNode* node : bind.nodes())
@@ -403,12 +301,6 @@ void addWeights(const SourceMesh& source, const SourceNode* above,
         if (index != kUnused) weights.entries.push_back({index, 1.0});
 }
 
-void warnOfSome(const std::string& path, const std::set<std::string>& names,
-                const std::string& what) {
-    if (!names.empty())
-        warn(path, std::to_string(names.size()) + what + ", \"" + *names.begin() + "\" among them");
-}
-
 } // namespace
 
 CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
@@ -419,23 +311,12 @@ CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
 
     const SceneBind bind(scene);
     const std::set<const SourceNode*> joints = jointsOfSkins(scene, bind);
-    const Scenery scenery(scene, bind);
-    const std::set<const SourceNode*> moved = movedNodes(scene, bind);
-    std::set<std::string> leftOut, unmoved;
     std::map<std::string, std::size_t> morphs; // by name
     for (const SourceNode* node : bind.nodes())
         for (const std::size_t index : node->meshes) {
             const SourceMesh& mesh = *scene.meshes[index];
             const SourceNode* above = node;
             while (above != nullptr && joints.count(above) == 0) above = bind.parent(*above);
-            const bool isFree = mesh.bones.empty() && above == nullptr;
-            if (isFree && scenery.has(*node, index)) {
-                leftOut.insert(node->name);
-                continue;
-            }
-            const SourceNode* mover = isFree ? node : nullptr;
-            while (mover != nullptr && moved.count(mover) == 0) mover = bind.parent(*mover);
-            if (mover != nullptr && !joints.empty()) unmoved.insert(node->name);
             const std::string where = path + ": mesh \"" + mesh.name + "\"";
             const auto indices = indicesOf(mesh, result.mesh.positions.size(), where);
             const glm::dmat4 toScene = bind.mesh(*node, index);
@@ -444,8 +325,6 @@ CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
             addMorphs(mesh, toScene, apart, indices, morphs, result);
             addWeights(mesh, above, indices, where, result);
         }
-    warnOfSome(path, leftOut, " objects beside the figure are left out");
-    warnOfSome(path, unmoved, " objects beside the skeleton are moved by clips; they stay still");
     return result;
 }
 

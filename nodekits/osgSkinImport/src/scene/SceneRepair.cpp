@@ -7,9 +7,11 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <string>
@@ -152,6 +154,69 @@ void addMissingBones(SourceScene& scene, const std::string& path) {
             warn(path, "bone \"" + bone.name + "\" has weights but no node; it follows \"" +
                            above.name + '"');
         }
+    }
+}
+
+void dropCoarseLevels(SourceScene& scene, const std::string& path) {
+    const auto shownAs = [](const SourceNode& node) { // "Body_LOD2": "Body" and 2
+        std::size_t digits = node.name.size();
+        while (digits > 0 && std::isdigit(static_cast<unsigned char>(node.name[digits - 1])) != 0)
+            --digits;
+        std::string word = node.name.substr(digits < 4 ? 0 : digits - 4, 4);
+        std::transform(word.begin(), word.end(), word.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        const std::size_t size = node.name.size() - digits;
+        const bool isLevel = !node.meshes.empty() && size > 0 && size < 3 && digits >= 4 &&
+                             (word == "_lod" || word == ".lod" || word == "-lod");
+        return isLevel ? std::make_pair(node.name.substr(0, digits - 4),
+                                        std::stoi(node.name.substr(digits)))
+                       : std::make_pair(std::string(), -1);
+    };
+    std::map<std::string, int> finest;
+    for (const SourceNode& node : scene.nodes)
+        if (const auto [name, level] = shownAs(node); level >= 0) {
+            const auto known = finest.emplace(name, level).first;
+            known->second = std::min(known->second, level);
+        }
+    std::size_t dropped = 0;
+    std::string first;
+    for (SourceNode& node : scene.nodes) {
+        const auto [name, level] = shownAs(node);
+        if (level < 0 || level == finest.at(name)) continue;
+        node.meshes.clear();
+        if (dropped++ == 0) first = node.name;
+    }
+    if (dropped > 0)
+        warn(path, std::to_string(dropped) + " coarser levels of detail are left out, " +
+                       inQuotes(first) + " among them");
+}
+
+void takeClipScales(SourceScene& scene) {
+    constexpr float kSame = 1e-4f; // relative
+    struct Scale {
+        glm::vec3 value{0.0f};
+        std::size_t clips = 0; ///< with just this scale
+    };
+    std::map<std::string, Scale> scales;
+    for (const auto& animation : scene.animations)
+        for (const SourceTrack& track : animation->tracks) {
+            if (track.scales.empty()) continue;
+            Scale& scale = scales[track.node];
+            if (scale.clips == 0) scale.value = track.scales.front().value;
+            if (std::all_of(track.scales.begin(), track.scales.end(), [&](const auto& key) {
+                    return glm::distance(key.value, scale.value) <=
+                           kSame * glm::length(scale.value);
+                }))
+                ++scale.clips;
+        }
+    for (SourceNode& node : scene.nodes) {
+        const auto found = scales.find(node.name);
+        if (found == scales.end() || found->second.clips != scene.animations.size()) continue;
+        const glm::dvec3 own = decompose(node.matrix).scale, scale(found->second.value);
+        for (int axis = 0; axis < 3; ++axis)
+            if (own[axis] > 0.0 && scale[axis] > 0.0 &&
+                std::abs(own[axis] - scale[axis]) > double(kSame) * own[axis])
+                node.matrix[axis] *= scale[axis] / own[axis];
     }
 }
 

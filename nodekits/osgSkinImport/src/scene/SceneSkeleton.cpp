@@ -5,11 +5,14 @@
 #include "scene/SceneBind.h"
 
 #include <osgSkin/Error>
+#include <osgSkinRig/JointRoles>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <unordered_set>
 #include <utility>
@@ -35,6 +38,31 @@ bool isEndNode(const SourceNode& node) {
     const std::string& name = node.name;
     const bool suffixed = name.size() > 4 && name.compare(name.size() - 4, 4, "_end") == 0;
     return node.children.empty() && (name.rfind("EndSite", 0) == 0 || suffixed);
+}
+
+/// The joints of a skeleton that was exported alone, without a mesh, a skin or a clip: all nodes,
+/// without those above the hips if these are recognised.
+std::set<const SourceNode*> nodesOfSkeleton(const SceneBind& bind) {
+    std::map<const SourceNode*, int> indices;
+    RestSkeleton rest;
+    for (const SourceNode* node : bind.nodes()) {
+        if (!node->meshes.empty()) return {};
+        const SourceNode* const above = bind.parent(*node);
+        indices[node] = rest.add(node->name, above == nullptr ? -1 : indices.at(above),
+                                 glm::dvec3(bind.posed(*node)[3]));
+        rest.joints.back().role = node->role;
+    }
+    constexpr std::size_t kMaxNodes = 10000; // more are no skeleton
+    if (rest.joints.size() < 2 || rest.joints.size() > kMaxNodes) return {};
+    const JointRoles roles = recogniseJoints(rest);
+    int top = std::max(roles.joint("Hips"), 0);
+    for (const auto& [role, joints] : roles.joints)
+        for (const int joint : joints)
+            if (!rest.isInSubtree(joint, top)) top = 0;
+    std::set<const SourceNode*> result;
+    for (const auto& [node, joint] : indices)
+        if (rest.isInSubtree(joint, top)) result.insert(node);
+    return result;
 }
 
 class Builder {
@@ -81,7 +109,7 @@ private:
 
     int add(const SourceNode& node, int parent) {
         const glm::dmat4& world = _bind.node(node);
-        RestJoint joint{node.name, parent, glm::dvec3(world[3]), {}, rotationOf(world)};
+        RestJoint joint{node.name, parent, glm::dvec3(world[3]), {}, rotationOf(world), node.role};
         bool isLeaf = true;
         for (const int c : node.children) isLeaf = isLeaf && _needed.count(&_bind.child(c)) == 0;
         for (const int c : node.children)
@@ -108,7 +136,7 @@ std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind
         if (const SourceNode* node = bind.find(name)) bones.insert(node);
     for (const std::string& name : animatedNames(scene))
         if (const SourceNode* node = bind.find(name)) moving.insert(node);
-    if (bones.empty()) return moving;
+    if (bones.empty()) return moving.empty() ? nodesOfSkeleton(bind) : moving;
     for (const SourceNode* node : bones)
         for (; node != nullptr && lineage.insert(node).second;) node = bind.parent(*node);
     for (const SourceNode* node : moving)

@@ -12,7 +12,7 @@ namespace osgSkin {
 
 int SourceScene::addNode(std::string name, int parent, const glm::dmat4& matrix) {
     const int index = static_cast<int>(nodes.size());
-    nodes.push_back({std::move(name), matrix, parent, {}, {}});
+    nodes.push_back({std::move(name), matrix, parent, {}, {}, {}});
     if (parent >= 0) nodes[static_cast<std::size_t>(parent)].children.push_back(index);
     return index;
 }

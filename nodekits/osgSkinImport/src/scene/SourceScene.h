@@ -38,6 +38,7 @@ struct SourceNode {
     int parent = -1;        ///< index in SourceScene::nodes; -1 for the root
     std::vector<int> children;
     std::vector<std::size_t> meshes; ///< shown by this node
+    std::string role{};              ///< RestJoint::role
 };
 
 /// A bone of a mesh's skin.
@@ -131,6 +132,14 @@ struct SourceScene {
 /// The names of all meshes' bones.
 std::set<std::string> boneNames(const SourceScene& scene);
 
+/// Joins vertices of a mesh that are equal in all attributes, weights and morph targets: Assimp's
+/// readers make one for each corner of a face.
+void joinEqualVertices(SourceScene& scene);
+
+/// Leaves out coarser levels of detail: of meshes at nodes called "Body_LOD0", "Body_LOD1" and so
+/// on, the lowest number is kept. Reports them in a notice.
+void dropCoarseLevels(SourceScene& scene, const std::string& path);
+
 /// Makes node names unique, because bones and tracks refer to nodes by name. Of several nodes with
 /// one name, they mean one without a mesh, which keeps the name; the others get a counter.
 ///
@@ -151,11 +160,34 @@ void addMissingBones(SourceScene& scene, const std::string& path);
 /// any motion, which consists of rotations:
 /// - a foot, toe, hand, shin or forearm that is not below its limb's previous bone follows that
 ///   bone. Rigs with inverse kinematics hang feet on a control;
+/// - in rigs whose thighs hang on a root beside the hips, all that hangs there follows the nearest
+///   joint of the trunk, as in Rigify's deformation bones exported alone;
 /// - MMD's "D" bones, which copy a leg's rotations, follow the leg.
 ///
 /// They keep their place, and their motion in each of the scene's animations that moves them or a
 /// node that they hung on. Reports them in one notice. Does nothing for more joints than the limit.
 void attachLooseJoints(SourceScene& scene, const std::string& path, const ReadLimits& limits);
+
+/// Gives nodes the scale that every clip replaces their own by, if it is constant and the same in
+/// all: their bones are then scaled alike at rest and in motion.
+void takeClipScales(SourceScene& scene);
+
+/// A copy of a mesh all of whose vertices follow one joint.
+/// \param toJoint from the mesh to the joint's node
+std::shared_ptr<const SourceMesh> boundTo(const std::string& joint, const glm::dmat4& toJoint,
+                                          const SourceMesh& mesh);
+
+/// In a scene with a skin, decides about meshes that are neither skinned nor parented to a joint.
+/// Scenery (a sky, a wall) is left out. If a clip moves the figure, the others follow their own
+/// nodes: the nearest one that a clip moves becomes a joint, or else the scene's root does. If no
+/// clip does, those inside the figure's bounds (eyes, hair) stay without weights, so that they get
+/// some when the figure is bound, and others (a floor) are left out. Reports both in notices.
+void bindFreeMeshes(SourceScene& scene, const std::string& path);
+
+/// Makes a face without bones a figure: each mesh of a scene without a skin follows the nearest
+/// node above that a clip moves, or else the scene's root.
+/// \return false, without a change, if no mesh has a morph target
+bool bindFace(SourceScene& scene);
 
 /// A matrix without shear, decomposed: matrix = translation * rotation * scale.
 struct NodeTransform {

@@ -22,6 +22,10 @@ void requireFits(const Clip& clip, const RestSkeleton& rig) {
     if (clip.rotations.size() != clip.frames * clip.joints ||
         clip.rootPositions.size() != clip.frames)
         throw Error(label + "its arrays do not fit " + std::to_string(clip.frames) + " frames");
+    for (const auto& [joint, positions] : clip.moves)
+        if (joint == 0 || joint >= clip.joints || positions.size() != clip.frames)
+            throw Error(label + "its moves do not fit its joints and " +
+                        std::to_string(clip.frames) + " frames");
 }
 
 void requireUsable(const Clip& clip, const RestSkeleton& rig) {

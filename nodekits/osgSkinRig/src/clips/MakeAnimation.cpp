@@ -129,14 +129,14 @@ osg::ref_ptr<osgAnimation::Channel> rotationChannel(const Clip& clip, std::size_
     return channel;
 }
 
-/// The root's positions as a channel "translate" without a target.
-osg::ref_ptr<osgAnimation::Channel> rootChannel(const Clip& clip) {
+/// A joint's positions as a channel "translate" without a target.
+osg::ref_ptr<osgAnimation::Channel> positionChannel(const Clip& clip,
+                                                    const std::vector<glm::dvec3>& positions) {
     osg::ref_ptr<osgAnimation::Vec3LinearChannel> channel = new osgAnimation::Vec3LinearChannel;
     channel->setName("translate");
     auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
     forEachKey(clip, [&](std::size_t sample, double time) {
-        keys->push_back(
-            osgAnimation::Vec3Keyframe(time, osg::Vec3(toOsg(clip.rootPositions[sample]))));
+        keys->push_back(osgAnimation::Vec3Keyframe(time, osg::Vec3(toOsg(positions[sample]))));
     });
     return channel;
 }
@@ -218,7 +218,7 @@ std::vector<ClipOnBones::Matrices> ClipOnBones::frame(std::size_t frame) const {
     std::vector<glm::dquat> rotations;
     std::vector<glm::dvec3> positions;
     worldRotations(_rig, &_clip.rotations[frame * _clip.joints], rotations);
-    worldPositions(_rig, rotations, _clip.rootPositions[frame], positions);
+    worldPositions(_rig, rotations, _clip.rootPositions[frame], _clip.moves, frame, positions);
     std::vector<Matrices> result(_rig.joints.size());
     for (std::size_t j = 0; j < result.size(); ++j)
         result[j].inSkeleton = _axes[j] * osg::Matrixd::rotate(toOsg(rotations[j])) *
@@ -266,13 +266,18 @@ osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const Rest
     animation->setName(clip.name);
     animation->setPlayMode(osgAnimation::Animation::LOOP);
 
-    osg::ref_ptr<osgAnimation::Channel> root = rootChannel(clip);
+    osg::ref_ptr<osgAnimation::Channel> root = positionChannel(clip, clip.rootPositions);
     root->setTargetName(rig.joints[0].name);
     // addChannel() would search all other channels.
     animation->getChannels().push_back(root);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         osg::ref_ptr<osgAnimation::Channel> channel = rotationChannel(clip, j);
         channel->setTargetName(rig.joints[j].name);
+        animation->getChannels().push_back(channel);
+    }
+    for (const auto& [joint, positions] : clip.moves) {
+        osg::ref_ptr<osgAnimation::Channel> channel = positionChannel(clip, positions);
+        channel->setTargetName(rig.joints[joint].name);
         animation->getChannels().push_back(channel);
     }
     animation->computeDuration();
@@ -355,7 +360,8 @@ osg::ref_ptr<osg::MatrixTransform> makeProp(const std::string& name,
     // Its position before the first update.
     node->setMatrix(osg::Matrix::rotate(toOsg(clip.rotations[0])) *
                     osg::Matrix::translate(toOsg(clip.rootPositions[0])));
-    for (const auto& channel : {rootChannel(clip), rotationChannel(clip, 0)}) {
+    for (const auto& channel :
+         {positionChannel(clip, clip.rootPositions), rotationChannel(clip, 0)}) {
         channel->setTargetName(name);
         animation.addChannel(channel);
     }

@@ -36,6 +36,10 @@ void Motion::validate() const {
     if (rootPositions.size() != frames || rotations.size() % joints != 0 ||
         rotations.size() / joints != frames)
         throw Error(label + "its arrays do not fit " + std::to_string(frames) + " frames");
+    for (const auto& [joint, positions] : moves)
+        if (joint == 0 || joint >= joints || positions.size() != frames)
+            throw Error(label + "its moves do not fit its joints and " + std::to_string(frames) +
+                        " frames");
     for (std::size_t f = 0; f < frames; ++f) {
         const auto at = [&] { return label + "frame " + std::to_string(f) + ": "; };
         if (!isInRange(rootPositions[f]))

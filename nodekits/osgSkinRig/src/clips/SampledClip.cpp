@@ -138,6 +138,13 @@ osg::ref_ptr<const SampledClip> SampledClip::create(const Clip& clip, const Rest
     for (std::size_t f = 0; f < clip.frames; ++f)
         result->_samples[f * clip.joints].translation =
             clip.rootPositions[f] - rig.joints.front().centre;
+    for (const auto& [j, positions] : clip.moves) {
+        const RestJoint& joint = rig.joints[j];
+        const glm::dvec3 rest =
+            joint.centre - rig.joints[static_cast<std::size_t>(joint.parent)].centre;
+        for (std::size_t f = 0; f < clip.frames; ++f)
+            result->_samples[f * clip.joints + j].translation = positions[f] - rest;
+    }
     result->findRoot();
     return result;
 }

@@ -309,7 +309,12 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
     JointRoles result = rolesByFamily(skeleton, extra, byCaller);
     const WordRoles words = wordRoles(skeleton);
     std::size_t identified = mainRoles(result.roles);
-    if (!byCaller) {
+    std::vector<std::string> stated;
+    for (const RestJoint& joint : skeleton.joints) stated.push_back(joint.role);
+    if (!byCaller && mainRoles(stated) >= kMinMain) {
+        inferMissingRoles(skeleton, stated);
+        result = madeOf(stated, kStatedByFile);
+    } else if (!byCaller) {
         // Where one name of a family's skeleton was changed, the other names keep their meaning.
         if (mainRoles(words.roles) > identified + (result.known() ? 1 : 0))
             result = madeOf(words.roles, kMixedNames);

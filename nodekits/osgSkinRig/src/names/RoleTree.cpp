@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "names/RoleTree.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <map>
 
@@ -54,7 +56,30 @@ private:
         const int left = find("LeftUpperLeg"), right = find("RightUpperLeg");
         if (find("Hips") >= 0 || left < 0 || right < 0) return;
         const int above = commonAncestor(_skeleton, left, right);
-        if (above >= 0 && above != left && above != right) role(above) = "Hips";
+        if (above < 0 || above == left || above == right) return;
+        const int spine = spineNear(left, right, above);
+        role(spine >= 0 ? spine : above) = "Hips";
+    }
+
+    /// Rigify's deformation bones exported alone all hang on the rig's root, on the floor: its hips
+    /// are the spine's joint at the thighs.
+    /// \return -1 unless the thighs' common ancestor is far from them, and such a joint is near
+    int spineNear(int left, int right, int above) const {
+        const auto centre = [&](int j) {
+            return _skeleton.joints[static_cast<std::size_t>(j)].centre;
+        };
+        const glm::dvec3 middle = 0.5 * (centre(left) + centre(right));
+        int best = -1;
+        for (int j = 0; j < static_cast<int>(_roles.size()); ++j)
+            if (_roles[static_cast<std::size_t>(j)] == "Spine" && _skeleton.isInSubtree(j, above) &&
+                (best < 0 ||
+                 glm::distance(centre(j), middle) < glm::distance(centre(best), middle)))
+                best = j;
+        constexpr double kFar = 4.0; // times as far as the spine's joint
+        const bool isFar =
+            best >= 0 && best != above &&
+            glm::distance(centre(above), middle) > kFar * glm::distance(centre(best), middle);
+        return isFar ? best : -1;
     }
 
     /// Rigify counts from the hips to the head: "spine.006" is its head.

@@ -133,6 +133,9 @@ struct StandingPose {
     /// copied.
     std::optional<SameSkeleton> copied;
 
+    /// Whether the rig is the motion's skeleton.
+    bool isSame = false;
+
     std::vector<std::string> notes; ///< for the report
 };
 

@@ -224,6 +224,57 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
     return clip;
 }
 
+std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t kMaxNames = 4;
+    std::string result;
+    for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
+        result += (i == 0 ? "\"" : ", \"") + names[i] + "\"";
+    if (names.size() > kMaxNames)
+        result += " and " + std::to_string(names.size() - kMaxNames) + " more";
+    return result;
+}
+
+/// Moves the joints of a rig that is the motion's skeleton as the motion does.
+/// \param report of the clip: where the motion's space is in the rig's
+void addMoves(const Motion& motion, const RestSkeleton& rig, const std::vector<int>& motionJoint,
+              const RetargetReport& report, Clip& clip) {
+    std::vector<glm::dquat> motionWorld, world;
+    std::vector<glm::dvec3> theirs, ours;
+    for (std::size_t f = 0; f < clip.frames; ++f) {
+        worldRotations(motion.skeleton, &motion.rotation(f, 0), motionWorld);
+        worldPositions(motion.skeleton, motionWorld, motion.rootPositions[f], motion.moves, f,
+                       theirs);
+        worldRotations(rig, &clip.rotations[f * clip.joints], world);
+        ours.assign(clip.joints, clip.rootPositions[f]);
+        for (std::size_t j = 1; j < clip.joints; ++j) {
+            const auto p = static_cast<std::size_t>(rig.joints[j].parent);
+            const int driver = motionJoint[j];
+            glm::dvec3 offset = rig.joints[j].centre - rig.joints[p].centre;
+            if (driver >= 0 && motion.moves.count(static_cast<std::size_t>(driver)) != 0) {
+                const glm::dvec3 place =
+                    report.scale * (report.rotation * theirs[static_cast<std::size_t>(driver)]) +
+                    report.offset;
+                offset = glm::conjugate(world[p]) * (place - ours[p]);
+                clip.moves[j].push_back(offset);
+            }
+            ours[j] = ours[p] + world[p] * offset;
+        }
+    }
+}
+
+/// Notes joints whose moves the joints that they drive do not get, on another skeleton.
+void noteMoves(const Motion& motion, const std::vector<int>& drivers,
+               std::vector<std::string>& notes) {
+    std::vector<std::string> names;
+    for (const auto& [joint, positions] : motion.moves)
+        if (std::find(drivers.begin(), drivers.end(), static_cast<int>(joint)) != drivers.end())
+            names.push_back(motion.skeleton.joints[joint].name);
+    if (names.empty()) return;
+    notes.push_back((names.size() == 1 ? "joint " : "joints ") + listed(names) +
+                    (names.size() == 1 ? " is" : " are") +
+                    " translated; only translations of the root are used on another skeleton");
+}
+
 const char* const kEssential[] = {
     "Hips",         "Spine",         "Head",          "LeftUpperArm",  "LeftLowerArm",
     "LeftHand",     "RightUpperArm", "RightLowerArm", "RightHand",     "LeftUpperLeg",
@@ -240,16 +291,6 @@ std::vector<std::string> idleJoints(const JointRoles& roles, const RestSkeleton&
             std::all_of(found->second.begin(), found->second.end(), isIdle))
             result.push_back(skeleton.joints[static_cast<std::size_t>(found->second[0])].name);
     }
-    return result;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-    constexpr std::size_t kMaxNames = 4;
-    std::string result;
-    for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
-        result += (i == 0 ? "\"" : ", \"") + names[i] + "\"";
-    if (names.size() > kMaxNames)
-        result += " and " + std::to_string(names.size() - kMaxNames) + " more";
     return result;
 }
 
@@ -334,24 +375,30 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     motion.validate();
     const JointPairs map = mapJoints(rig, motion.skeleton, options);
     const StandingPose pose = findStandingPose(motion, rig, map, options.up);
+    RetargetReport own;
+    if (report == nullptr) report = &own;
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
                             : aligned(pose.counted ? *pose.counted : motion, rig, map, report);
+    if (pose.isSame && !motion.moves.empty()) addMoves(motion, rig, map.motionJoint, *report, clip);
     if (options.shareTwist && !pose.copied) {
         const std::vector<std::size_t> shared = shareHingeTwist(rig, map.rig, clip);
-        for (std::size_t j = 0; report != nullptr && j < shared.size(); ++j)
-            report->entries[j].twistShared = shared[j];
+        for (std::size_t j = 0; j < shared.size(); ++j) report->entries[j].twistShared = shared[j];
     }
     for (std::size_t f = 0; f < clip.frames; ++f)
         if (!isInRange(clip.rootPositions[f]))
             throw Error("retarget: frame " + std::to_string(f) +
                         ": the root's position is not finite, or beyond -1e18 to 1e18");
-    if (report != nullptr) {
-        report->notes.insert(report->notes.begin(), pose.notes.begin(), pose.notes.end());
-        for (std::string& note : notesOf(map, rig, motion.skeleton, options))
-            report->notes.push_back(std::move(note));
-        report->rigNames = map.rig.family;
-        report->motionNames = map.motion.family;
-    }
+    for (const auto& [joint, positions] : clip.moves)
+        for (const glm::dvec3& position : positions)
+            if (!isInRange(position))
+                throw Error("retarget: joint \"" + rig.joints[joint].name +
+                            "\" has a position that is not finite, or beyond -1e18 to 1e18");
+    report->notes.insert(report->notes.begin(), pose.notes.begin(), pose.notes.end());
+    for (std::string& note : notesOf(map, rig, motion.skeleton, options))
+        report->notes.push_back(std::move(note));
+    if (!pose.isSame) noteMoves(motion, map.motionJoint, report->notes);
+    report->rigNames = map.rig.family;
+    report->motionNames = map.motion.family;
     return clip;
 }
 

@@ -451,23 +451,24 @@ int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<P
 
 /// Where the skeletons are the same, the motion's rotations are made relative to the rig's rest
 /// pose.
+/// \param isStated whether the caller says which axis is up
 void countFromRig(const Motion& motion, const RestSkeleton& rig,
                   const std::vector<int>& motionJoint, const SameSkeleton& same,
                   const std::optional<Posture>& rest, const std::optional<Posture>& zero, int up,
-                  StandingPose& result) {
+                  bool isStated, StandingPose& result) {
     if (!rest || !rest->stands()) {
         result.copied = same;
         result.notes.emplace_back("the rig has the motion's joints and rests in no standing pose: "
                                   "local rotations are copied");
         return;
     }
-    if (same.restsAlike) return; // the zero pose is the rig's rest pose
     // Both files' spaces may have different axes up.
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
     const int rigAxis = nearAxis(rest->up);
     const bool standAlike = zero && zero->stands() && nearAxis(zero->up) == rigAxis;
-    if (up != 0 && rigAxis != 0 && up != rigAxis && !standAlike)
+    if (up != 0 && rigAxis != 0 && up != rigAxis && (isStated || !standAlike))
         turn = shortestRotation(alongAxis(rigAxis), alongAxis(up));
+    if (same.restsAlike && isIdentity(turn)) return; // the zero pose is the rig's rest pose
     std::vector<glm::dquat> world = same.toRigRest;
     for (glm::dquat& q : world) q = glm::normalize(turn * q);
     std::size_t root = 0; // the rig's joint that the motion's root drives, or else its own root
@@ -487,17 +488,21 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     const PostureJoints joints(roles);
     const PostureJoints rigJoints(map.rig);
     const auto same = SameSkeleton::find(rig, motion.skeleton, map.motionJoint);
-    if (!joints.complete()) return result; // unknown roles
-    const std::optional<Posture> zero = joints.measure(centresOf(motion.skeleton));
+    result.isSame = same.has_value();
+    const bool isKnown = joints.complete();
+    if (!isKnown && !(same && rigJoints.complete())) return result;
+    const std::optional<Posture> zero =
+        isKnown ? joints.measure(centresOf(motion.skeleton)) : std::nullopt;
     const bool zeroStands = zero && zero->stands();
     Sampler sampler(motion, joints);
-    const Samples samples = sampler.measure();
+    const Samples samples = isKnown ? sampler.measure() : Samples();
     const int up = upOf(motion, stated, zero, samples);
+    const bool isStated = stated != RetargetOptions::Up::Unknown;
 
     if (rigJoints.complete()) {
         const std::optional<Posture> rest = rigJoints.measure(centresOf(rig));
         if (same) {
-            countFromRig(motion, rig, map.motionJoint, *same, rest, zero, up, result);
+            countFromRig(motion, rig, map.motionJoint, *same, rest, zero, up, isStated, result);
             return result;
         }
         if (!rest || !rest->stands())
@@ -514,8 +519,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     const std::string why = zeroStands
                                 ? "the motion's zero pose lies"
                                 : "the motion's zero pose does not stand (" + faults(zero) + ")";
-    const bool isKnown = motion.yIsUp || stated != RetargetOptions::Up::Unknown;
-    const Sample* best = samples.best(up, isKnown);
+    const Sample* best = samples.best(up, isStated || motion.yIsUp);
     const bool isStraight = best != nullptr && best->isStraight();
     if (!isStraight && zero && zero->standsLeaning()) {
         result.counted = sampler.fromZero(*zero, roles, up);

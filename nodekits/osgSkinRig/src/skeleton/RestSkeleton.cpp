@@ -80,7 +80,14 @@ void worldRotations(const RestSkeleton& skeleton, const glm::dquat* local,
 
 void worldPositions(const RestSkeleton& skeleton, const std::vector<glm::dquat>& world,
                     const glm::dvec3& root, std::vector<glm::dvec3>& positions) {
+    worldPositions(skeleton, world, root, {}, 0, positions);
+}
+
+void worldPositions(const RestSkeleton& skeleton, const std::vector<glm::dquat>& world,
+                    const glm::dvec3& root, const JointMoves& moves, std::size_t frame,
+                    std::vector<glm::dvec3>& positions) {
     positions.resize(skeleton.joints.size());
+    auto move = moves.begin();
     for (std::size_t j = 0; j < positions.size(); ++j) {
         const RestJoint& joint = skeleton.joints[j];
         if (joint.parent < 0) {
@@ -88,7 +95,10 @@ void worldPositions(const RestSkeleton& skeleton, const std::vector<glm::dquat>&
             continue;
         }
         const auto p = static_cast<std::size_t>(joint.parent);
-        positions[j] = positions[p] + world[p] * (joint.centre - skeleton.joints[p].centre);
+        while (move != moves.end() && move->first < j) ++move;
+        const bool moved = move != moves.end() && move->first == j;
+        positions[j] = positions[p] + world[p] * (moved ? move->second[frame]
+                                                        : joint.centre - skeleton.joints[p].centre);
     }
 }
 

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+#include "assimp/FbxDocument.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace osgSkin {
+namespace {
+
+/// Thrown inside this file only.
+struct Malformed {};
+
+constexpr int kMaxDepth = 64;
+
+/// Whether a record at a depth is of use.
+bool isNeeded(const std::string& name, int depth, bool isObject) {
+    static const char* const kObjects[] = {"Model",          "Geometry",       "Deformer",
+                                           "AnimationStack", "AnimationLayer", "AnimationCurveNode",
+                                           "AnimationCurve"};
+    if (depth == 0) return name == "Objects" || name == "Connections";
+    if (depth > 1 || !isObject) return true;
+    return std::find(std::begin(kObjects), std::end(kObjects), name) != std::end(kObjects);
+}
+
+/// Whether a record's children are of use.
+bool isWhole(const std::string& name, int depth) {
+    return depth != 1 || name != "Geometry";
+}
+
+class BinaryReader {
+public:
+    explicit BinaryReader(std::string_view bytes)
+        : _bytes(bytes), _at(std::min(kMagic, bytes.size())),
+          _unpacked(kMinUnpacked + kRatio * bytes.size()) {
+        _isWide = number<std::uint32_t>() >= 7500; // 64-bit offsets
+    }
+
+    std::vector<FbxRecord> readAll() {
+        std::vector<FbxRecord> result;
+        while (readRecord(result, 0, false)) {
+        }
+        return result;
+    }
+
+private:
+    static constexpr std::size_t kMagic = 23; ///< bytes before the version
+    static constexpr std::size_t kMinUnpacked = std::size_t(1) << 20, kRatio = 64;
+
+    template <typename Number>
+    Number number() {
+        Number result;
+        std::memcpy(&result, take(sizeof result).data(), sizeof result);
+        return result;
+    }
+
+    std::string_view take(std::size_t size) {
+        if (size > _bytes.size() - _at) throw Malformed();
+        const std::string_view result = _bytes.substr(_at, size);
+        _at += size;
+        return result;
+    }
+
+    std::size_t offset() {
+        return static_cast<std::size_t>(_isWide ? number<std::uint64_t>()
+                                                : number<std::uint32_t>());
+    }
+
+    template <typename Number>
+    std::vector<double> numbers(std::size_t count, std::string_view bytes) {
+        if (bytes.size() / sizeof(Number) < count) throw Malformed();
+        std::vector<double> result(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Number value;
+            std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
+            result[i] = static_cast<double>(value);
+        }
+        return result;
+    }
+
+    std::vector<double> list(char type) {
+        const auto count = number<std::uint32_t>(), encoding = number<std::uint32_t>();
+        std::string_view bytes = take(number<std::uint32_t>());
+        const std::size_t width = type == 'd' || type == 'l'   ? 8
+                                  : type == 'b' || type == 'c' ? 1
+                                                               : 4;
+        std::vector<unsigned char> unpacked;
+        if (encoding == 1) {
+            if (count * width > _unpacked) throw Malformed();
+            _unpacked -= count * width;
+            unpacked.resize(count * width);
+            auto size = static_cast<uLongf>(unpacked.size());
+            if (uncompress(unpacked.data(), &size,
+                           reinterpret_cast<const unsigned char*>(bytes.data()),
+                           static_cast<uLong>(bytes.size())) != Z_OK)
+                throw Malformed();
+            bytes = {reinterpret_cast<const char*>(unpacked.data()), size};
+        }
+        switch (type) {
+        case 'f':
+            return numbers<float>(count, bytes);
+        case 'd':
+            return numbers<double>(count, bytes);
+        case 'l':
+            return numbers<std::int64_t>(count, bytes);
+        case 'i':
+            return numbers<std::int32_t>(count, bytes);
+        default:
+            return numbers<signed char>(count, bytes);
+        }
+    }
+
+    FbxValue value() {
+        FbxValue result;
+        const char type = take(1)[0];
+        const auto setInteger = [&result](std::int64_t integer) {
+            result.integer = integer;
+            result.number = static_cast<double>(integer);
+        };
+        switch (type) {
+        case 'C':
+        case 'B':
+            setInteger(number<signed char>());
+            break;
+        case 'Y':
+            setInteger(number<std::int16_t>());
+            break;
+        case 'I':
+            setInteger(number<std::int32_t>());
+            break;
+        case 'L':
+            setInteger(number<std::int64_t>());
+            break;
+        case 'F':
+            result.number = double(number<float>());
+            break;
+        case 'D':
+            result.number = number<double>();
+            break;
+        case 'S':
+        case 'R':
+            result.text = take(number<std::uint32_t>());
+            break;
+        default:
+            result.list = list(type);
+        }
+        return result;
+    }
+
+    /// False at the end of a list of records.
+    bool readRecord(std::vector<FbxRecord>& to, int depth, bool isObject) {
+        const std::size_t end = offset(), values = offset(), size = offset();
+        std::string name(take(number<unsigned char>()));
+        if (end == 0) return false;
+        if (end > _bytes.size() || end < _at || size > end - _at || depth > kMaxDepth)
+            throw Malformed();
+        if (isNeeded(name, depth, isObject)) {
+            const bool isObjects = depth == 0 && name == "Objects";
+            FbxRecord& record = to.emplace_back();
+            record.name = std::move(name);
+            const std::size_t children = _at + size;
+            for (std::size_t v = 0; v < values && _at < children; ++v)
+                record.values.push_back(value());
+            _at = children;
+            if (isWhole(record.name, depth))
+                while (_at < end && readRecord(record.records, depth + 1, isObjects)) {
+                }
+        }
+        _at = end;
+        return true;
+    }
+
+    const std::string_view _bytes;
+    std::size_t _at = 0;
+    std::size_t _unpacked; ///< how many more bytes compressed arrays may have
+    bool _isWide = false;
+};
+
+class TextReader {
+public:
+    explicit TextReader(const std::string& bytes) : _at(bytes.c_str()) {}
+
+    std::vector<FbxRecord> readAll() {
+        std::vector<FbxRecord> result;
+        readRecords(result, 0, false);
+        return result;
+    }
+
+private:
+    /// Skips blanks and comments, and ends of lines too if wanted.
+    void skip(bool lines) {
+        for (;; ++_at) {
+            if (*_at == ';')
+                while (*_at != '\0' && *_at != '\n') ++_at;
+            if (*_at == '\0' || (*_at == '\n' && !lines) ||
+                std::isspace(static_cast<unsigned char>(*_at)) == 0)
+                return;
+        }
+    }
+
+    void readRecords(std::vector<FbxRecord>& to, int depth, bool isObject) {
+        if (depth > kMaxDepth) throw Malformed();
+        for (skip(true); *_at != '\0' && *_at != '}'; skip(true)) {
+            const char* const begin = _at;
+            while (*_at != ':' && *_at != '\0' && *_at != '\n') ++_at;
+            if (*_at != ':') throw Malformed();
+            std::string name(begin, _at++);
+            if (isNeeded(name, depth, isObject)) {
+                const bool isObjects = depth == 0 && name == "Objects";
+                FbxRecord& record = to.emplace_back();
+                record.name = std::move(name);
+                readValues(record);
+                if (*_at != '{') continue;
+                if (!isWhole(record.name, depth)) {
+                    skipRecord();
+                    continue;
+                }
+                ++_at;
+                readRecords(record.records, depth + 1, isObjects);
+                if (*_at++ != '}') throw Malformed();
+            } else {
+                skipRecord();
+            }
+        }
+    }
+
+    /// Reads values up to the end of the line, or of the list behind a comma.
+    void readValues(FbxRecord& record) {
+        for (skip(false); *_at != '\0' && *_at != '\n' && *_at != '{' && *_at != '}'; skip(false)) {
+            if (record.name == "a") { // the numbers of an array
+                if (record.values.empty()) record.values.emplace_back();
+                char* end = nullptr;
+                record.values.front().list.push_back(std::strtod(_at, &end));
+                if (end == _at) throw Malformed();
+                _at = end;
+            } else {
+                record.values.push_back(value());
+            }
+            skip(false);
+            if (*_at != ',') continue;
+            ++_at;
+            skip(true);
+        }
+    }
+
+    FbxValue value() {
+        FbxValue result;
+        if (*_at == '"') {
+            const char* const begin = ++_at;
+            while (*_at != '"' && *_at != '\0') ++_at;
+            if (*_at == '\0') throw Malformed();
+            result.text.assign(begin, _at++);
+            return result;
+        }
+        const char* const begin = _at;
+        while (*_at != '\0' && *_at != ',' && *_at != '{' && *_at != '}' &&
+               std::isspace(static_cast<unsigned char>(*_at)) == 0)
+            ++_at;
+        const std::string word(begin, _at);
+        if (word.empty()) throw Malformed();
+        result.integer = std::strtoll(word.c_str(), nullptr, 10);
+        result.number = std::strtod(word.c_str(), nullptr);
+        return result;
+    }
+
+    void skipRecord() {
+        int depth = 0;
+        for (; *_at != '\0'; ++_at) {
+            if (*_at == '"') {
+                const char* const close = std::strchr(_at + 1, '"');
+                if (close == nullptr) throw Malformed();
+                _at = close;
+            } else if (*_at == '{') {
+                ++depth;
+            } else if (*_at == '}' && --depth <= 0) {
+                if (depth == 0) ++_at; // else the end of the record above
+                return;
+            } else if (*_at == '\n' && depth == 0) {
+                return;
+            }
+        }
+    }
+
+    const char* _at;
+};
+
+} // namespace
+
+const FbxRecord* FbxRecord::find(const std::string& wanted) const {
+    const auto found = std::find_if(records.begin(), records.end(),
+                                    [&](const FbxRecord& record) { return record.name == wanted; });
+    return found == records.end() ? nullptr : &*found;
+}
+
+const std::vector<double>& FbxRecord::list(const std::string& wanted) const {
+    static const std::vector<double> none;
+    const FbxRecord* found = find(wanted);
+    if (found == nullptr) return none;
+    if (const FbxRecord* const text = found->find("a")) found = text;
+    return found->values.empty() ? none : found->values.front().list;
+}
+
+const FbxRecord* FbxRecord::property(const std::string& wanted) const {
+    const FbxRecord* const properties = find("Properties70");
+    if (properties == nullptr) return nullptr;
+    for (const FbxRecord& record : properties->records)
+        if (!record.values.empty() && record.values.front().text == wanted) return &record;
+    return nullptr;
+}
+
+FbxDocument FbxDocument::read(const std::string& bytes) try {
+    const bool isBinary = bytes.rfind("Kaydara FBX Binary", 0) == 0;
+    FbxDocument result;
+    for (FbxRecord& record :
+         isBinary ? BinaryReader(bytes).readAll() : TextReader(bytes).readAll()) {
+        auto& to = record.name == "Objects" ? result.objects : result.connections;
+        std::move(record.records.begin(), record.records.end(), std::back_inserter(to));
+    }
+    return result;
+} catch (const Malformed&) {
+    return {};
+}
+
+void renamePropertyConnections(std::string& fbx) {
+    // In binary files: a record called "C", and a string of two bytes.
+    static const std::string binary("\x01"
+                                    "CS\x02\0\0\0PO",
+                                    9);
+    for (auto at = fbx.find(binary); at != std::string::npos; at = fbx.find(binary, at + 1))
+        fbx[at + binary.size() - 1] = 'P';
+    static const std::string text = "\"PO\"";
+    for (auto at = fbx.find(text); at != std::string::npos; at = fbx.find(text, at + 1)) {
+        std::size_t end = at; // of the record's name
+        while (end > 0 && (fbx[end - 1] == ' ' || fbx[end - 1] == '\t')) --end;
+        const bool isConnection =
+            end > 1 && fbx.compare(end - 2, 2, "C:") == 0 &&
+            (end == 2 || std::isspace(static_cast<unsigned char>(fbx[end - 3])) != 0);
+        if (isConnection) fbx[at + 2] = 'P';
+    }
+}
+
+} // namespace osgSkin

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_ASSIMP_FBXDOCUMENT_H
+#define OSGSKINIMPORT_ASSIMP_FBXDOCUMENT_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+constexpr double kFbxTicks = 46186158000.0; ///< times in a second
+
+/// A value of an FBX record. Numbers are in both `number` and `integer`.
+struct FbxValue {
+    double number = 0.0;
+    std::int64_t integer = 0;
+    std::string text;
+    std::vector<double> list;
+};
+
+/// A record of an FBX file, binary or text.
+struct FbxRecord {
+    std::string name;
+    std::vector<FbxValue> values;
+    std::vector<FbxRecord> records;
+
+    /// The first record with a name; null if there is none.
+    const FbxRecord* find(const std::string& name) const;
+
+    /// The numbers of a child record that is an array; empty if there is none.
+    const std::vector<double>& list(const std::string& name) const;
+
+    /// A property ("Lcl Rotation") of the child record "Properties70"; null if there is none.
+    const FbxRecord* property(const std::string& name) const;
+};
+
+/// What Assimp does not tell about an FBX file: objects of the few kinds that place and move
+/// models, and all connections.
+struct FbxDocument {
+    /// Models, deformers, and stacks, layers, nodes and curves of animations; geometries without
+    /// their contents.
+    std::vector<FbxRecord> objects;
+    std::vector<FbxRecord> connections;
+
+    /// Reads a file of version 7 or later.
+    /// \param bytes of the whole file
+    /// \return an empty document if the file is older or malformed: Assimp reports errors
+    static FbxDocument read(const std::string& bytes);
+};
+
+/// Renames the connections of an object's property to another object, text or binary, to those
+/// between two properties: Assimp's reader refuses the former and ignores the latter.
+void renamePropertyConnections(std::string& fbx);
+
+} // namespace osgSkin
+
+#endif
