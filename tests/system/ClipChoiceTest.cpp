@@ -17,12 +17,12 @@ namespace {
 using osgSkin::Character;
 using test::GltfColumn;
 
-/// A column with clips "Armature|still", "Armature|bow" and "twist", which rotate by 0, 30 and 60
-/// degrees.
+/// A column with clips "Armature|still_Armature", "Armature|bow" and "twist", which rotate by 0, 30
+/// and 60 degrees.
 std::string movesFile() {
     GltfColumn column;
     double angle = 0.0;
-    for (const char* name : {"Armature|still", "Armature|bow", "twist"}) {
+    for (const char* name : {"Armature|still_Armature", "Armature|bow", "twist"}) {
         column.animate(name, column.joints[1], "rotation", {0.0, 1.0},
                        GltfColumn::turns({angle, angle}));
         angle += 30.0;
@@ -60,7 +60,7 @@ TEST(ClipChoice, BySkinFile) {
     }
     const std::string why = test::whyRefused(skinFile(R"({"file": "moves.gltf", "clip": "fly"})"));
     test::expectContains(
-        why, R"(no clip "fly", expected one of 0 "Armature|still", 1 "Armature|bow", 2)");
+        why, R"(no clip "fly", expected one of 0 "Armature|still_Armature", 1 "Armature|bow", 2)");
     test::expectContains(test::whyRefused(skinFile(R"({"file": "moves.gltf", "clip": true})")),
                          "motions[0].clip");
 }
@@ -92,6 +92,7 @@ TEST(ClipChoice, ByOption) {
     const std::string skin = skinFile("");
     for (const auto& [wanted, angle] : {std::pair<std::string, double>{"bow", 30},
                                         {"Armature|bow", 30},
+                                        {"still", 0},
                                         {"2", 60},
                                         {"twist", 60}}) {
         osgSkin::LoadOptions options;
@@ -108,4 +109,7 @@ TEST(ClipChoice, ByOption) {
     osgSkin::LoadOptions own;
     own.motion = "bow";
     EXPECT_EQ(osgSkin::loadCharacter(moves, own).motions.front().name(), "Armature|bow");
+    // Blender repeats the object's name behind it.
+    own.motion = "still";
+    EXPECT_EQ(osgSkin::loadCharacter(moves, own).motions.front().name(), "Armature|still_Armature");
 }

@@ -67,7 +67,8 @@ std::string expectedMotions(const CharacterSource& source, const std::string& wa
 }
 
 /// Moves the element called `name` to the front, or the only one with that behind the last '|' of
-/// its name (as in "Armature|walk"). False where there is none.
+/// its name (as in "Armature|walk", or Blender's "Armature|walk_Armature"). False where there is
+/// none.
 template <typename List, typename NameOf>
 bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
     auto found = std::find_if(list.begin(), list.end(),
@@ -75,7 +76,9 @@ bool putFirst(List& list, const std::string& name, const NameOf& nameOf) {
     const auto endsSo = [&](const auto& item) {
         const std::string whole = nameOf(item);
         const std::size_t bar = whole.rfind('|');
-        return bar != std::string::npos && whole.substr(bar + 1) == name;
+        if (bar == std::string::npos) return false;
+        const std::string clip = whole.substr(bar + 1);
+        return clip == name || clip == name + '_' + whole.substr(0, bar);
     };
     if (found == list.end() && std::count_if(list.begin(), list.end(), endsSo) == 1)
         found = std::find_if(list.begin(), list.end(), endsSo);

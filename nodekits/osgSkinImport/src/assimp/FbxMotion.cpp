@@ -379,15 +379,30 @@ private:
         return model.parent->own[Scaling];
     }
 
+    /// Whether an animation scales the parent of a model that does not inherit its scale.
+    static bool isCompensated(const Model& model, const Stack& stack) {
+        if (!model.ignoresParentsScale || model.parent == nullptr) return false;
+        const auto above = stack.moves.find(model.parent);
+        if (above == stack.moves.end() || above->second.count(Scaling) == 0) return false;
+        const Curves& scale = above->second.at(Scaling);
+        const auto isOther = [](double value) { return std::abs(value - 1.0) > kTolerance; };
+        for (int axis = 0; axis < 3; ++axis) {
+            const FbxCurve* const curve = scale.axes[static_cast<std::size_t>(axis)];
+            if (curve == nullptr && isOther(scale.constant[axis])) return true;
+            if (curve != nullptr &&
+                std::any_of(curve->keys().begin(), curve->keys().end(),
+                            [&](const FbxCurve::Key& key) { return isOther(key.value); }))
+                return true;
+        }
+        return false;
+    }
+
     /// Whether Assimp's tracks of a model are to be replaced.
     static bool isWrong(const Model& model, const Moves& moves, const Stack& stack) {
         if (model.hasPivots() || model.hasGeometric()) return true;
-        if (model.ignoresParentsScale && model.parent != nullptr) {
-            const auto above = stack.moves.find(model.parent);
-            if ((above != stack.moves.end() && above->second.count(Scaling) != 0) ||
-                model.parent->own[Scaling] != glm::dvec3(1.0))
-                return true;
-        }
+        if (isCompensated(model, stack)) return true;
+        if (model.ignoresParentsScale && parentsScaleAt(model, nullptr, 0.0) != glm::dvec3(1.0))
+            return true;
         for (const auto& [channel, curves] : moves) {
             for (const FbxCurve* curve : curves.axes)
                 if (curve != nullptr && osgSkin::isCurved(*curve)) return true;
@@ -416,11 +431,7 @@ private:
     void correct(Stack& stack) {
         // Models that a moving parent's scale affects move, too.
         for (auto& [id, model] : _document.models)
-            if (model.ignoresParentsScale && model.parent != nullptr) {
-                const auto above = stack.moves.find(model.parent);
-                if (above != stack.moves.end() && above->second.count(Scaling) != 0)
-                    stack.moves[&model];
-            }
+            if (isCompensated(model, stack)) stack.moves[&model];
         if (stack.moves.empty()) return;
         SourceAnimation& animation = animationOf(stack);
         if (stack.unusedLayers > 0)

@@ -33,8 +33,9 @@ std::size_t findClip(const std::vector<std::string>& names, const std::string& w
     std::vector<std::size_t> found;
     for (std::size_t n = 0; n < names.size(); ++n) {
         const std::size_t bar = names[n].rfind('|');
-        if (bar != std::string::npos && names[n].compare(bar + 1, std::string::npos, wanted) == 0)
-            found.push_back(n);
+        if (bar == std::string::npos) continue;
+        const std::string clip = names[n].substr(bar + 1);
+        if (clip == wanted || clip == wanted + '_' + names[n].substr(0, bar)) found.push_back(n);
     }
     if (found.size() == 1) return found.front();
     std::size_t number = 0;

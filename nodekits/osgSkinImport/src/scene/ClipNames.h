@@ -14,8 +14,9 @@ namespace osgSkin {
 /// "walk".
 std::vector<std::string> clipNames(const SourceScene& scene);
 
-/// Finds a clip by its name, by the part of its name after the last '|' ("Armature|walk") if only
-/// one clip has that, or by its number, from 0.
+/// Finds a clip by its name, by the part of its name after the last '|' ("Armature|walk"), also
+/// without the object's name behind it ("Armature|walk_Armature"), if only one clip has that, or by
+/// its number, from 0.
 /// \param names of the file's clips
 /// \param wanted name or number
 /// \param path of the file, for errors
