@@ -170,7 +170,7 @@ constexpr double kSidewaysCounts = 0.2;
 constexpr double kSideways = 0.02; ///< sine of half the angle from the main axis
 
 /// The least share of good samples with which shapes are made.
-constexpr double kEnoughSamples = 0.5;
+constexpr double kEnoughSamples = 0.25;
 
 ModeLimits limitsOf(bool hinge, double radius) {
     ModeLimits limits;
