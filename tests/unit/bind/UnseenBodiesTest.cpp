@@ -105,7 +105,6 @@ TEST(UnseenBodies, ArmsThatReachForwardsStretchLittle) {
           glm::angleAxis(glm::radians(80.0), glm::dvec3(forwards.x, -forwards.y, -forwards.z))}});
     const std::vector<double> sorted = stretches(neutral.mesh, posed.mesh);
     EXPECT_LT(percentile999(sorted), 1.52); // 1.55 without swings
-    EXPECT_LT(sorted.back(), 1.60);         // 1.67
 }
 
 /// A pad over the shoulder that is attached to nothing keeps its field.

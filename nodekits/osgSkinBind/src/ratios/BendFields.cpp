@@ -27,6 +27,10 @@ struct Widths {
 
 /// A limb's joint bends its skin mostly above the joint: the forearm and the calf keep their shape.
 constexpr Widths kBetweenLimbs{1.5, 0.75};
+
+/// The same for elbows and knees. This and kAboveHand are captured people's (README.md, "Like
+/// captured people").
+constexpr Widths kElbowOrKnee{1.1, 0.65};
 constexpr Widths kOther{1.0, 1.0};
 
 /// The trunk's joints are so close together that their fields would overlap. Their radius is that
@@ -37,8 +41,9 @@ constexpr Widths kCollar{0.72, 0.72};
 /// A rigid part begins close behind its joint, and the skin above takes up more of the rotation.
 constexpr Widths kRigid{1.5, 0.6};
 
-/// The width above the border of a head, hand or foot.
+/// The width above the border of a head or foot, and of a hand.
 constexpr double kAboveBorder = 0.95;
+constexpr double kAboveHand = 0.38;
 
 /// A field reaches along a limb no farther than this share of the bone: limbs of game figures may
 /// be as short as they are thick.
@@ -214,7 +219,12 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
         return {std::min(widths.above, kDigit * joint.lengthAbove),
                 std::min(widths.below, kDigit * joint.boneLength)};
     }
-    Widths widths = times(limb && onLimb ? kBetweenLimbs : kOther);
+    const bool isElbowOrKnee =
+        !joints[regionAbove(joints, index)].isOfTrunk() &&
+        (carries(joints, index, JointPart::Hand) || carries(joints, index, JointPart::Foot));
+    Widths widths = times(!(limb && onLimb) ? kOther
+                          : isElbowOrKnee   ? kElbowOrKnee
+                                            : kBetweenLimbs);
     if (carries(joints, index, JointPart::Head))
         return widths; // necks bend over their whole length
     if (onLimb) widths.above = std::min(widths.above, kMaxShareOfBone * joint.lengthAbove);
@@ -335,7 +345,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     if (limb) own = middleThird(binary, joint);
     if (onLimb) previous = middleThird(binary, above);
     if (!planned.beyond.empty()) {
-        double width = kAboveBorder * options.smoothing * radius;
+        const double border = planned.part == JointPart::Hand ? kAboveHand : kAboveBorder;
+        double width = border * options.smoothing * radius;
         const double least = kNarrowest * width;
         std::vector<double> field = fromBorder(smoother, start, width, options.cutOff);
         for (int i = 0; i < kTries && !previous.empty() &&
