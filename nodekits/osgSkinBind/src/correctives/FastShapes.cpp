@@ -3,6 +3,7 @@
 
 #include "correctives/ShapeFit.h"
 #include "correctives/ShapedJoint.h"
+#include "correctives/SkinRelaxation.h"
 #include "regions/HermiteRatio.h"
 
 #include <glm/common.hpp>
@@ -294,6 +295,10 @@ private:
                                    const JointSections& sections) const;
     std::vector<glm::dvec3> trunkTargets(double volumeAtRest) const;
 
+    /// Adds ShapedJoint::slide, in full where the ratio is 1/2. Skin does not slide across the
+    /// plane in which both sides of a fold meet: the displacement is along it.
+    std::vector<glm::dvec3> slid(std::vector<glm::dvec3> points) const;
+
     const ShapedJoint& _joint;
     BendTwist _bend;
     FoldShape _fold;
@@ -528,6 +533,7 @@ double BentSkin::volumeOf(const ShapedJoint& joint, const Points& points) {
 }
 
 Points BentSkin::targets(double volumeAtRest, const JointSections* sections) const {
+    if (_joint.isSoft) return slid(_posed);
     return sections ? limbTargets(*sections) : trunkTargets(volumeAtRest);
 }
 
@@ -576,7 +582,16 @@ Points BentSkin::limbTargets(const JointSections& sections) const {
         const ShapedJoint::Vertex& vertex = _joint.vertices[i];
         targets[i] = _posed[i] + vertex.limb * vertex.fade * (targets[i] - _posed[i]);
     }
-    return targets;
+    return slid(std::move(targets));
+}
+
+Points BentSkin::slid(Points points) const {
+    const glm::dvec3 move = _joint.slide * _joint.radius * (_fold.bone - _fold.boneRest);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ShapedJoint::Vertex& vertex = _joint.vertices[i];
+        points[i] += 4.0 * vertex.bend * (1.0 - vertex.bend) * vertex.fade * move;
+    }
+    return points;
 }
 
 /// Removes the bulge outside, but no more volume than the bend has added.
@@ -591,7 +606,7 @@ Points BentSkin::trunkTargets(double volumeAtRest) const {
     }
     const double plain = volumeOf(_joint, _posed), now = volumeOf(_joint, lean);
     const double least = plain - (1.0 - kGainKept) * std::max(plain - volumeAtRest, 0.0);
-    return now < least ? between(std::move(lean), _posed, (least - now) / (plain - now)) : lean;
+    return slid(now < least ? between(lean, _posed, (least - now) / (plain - now)) : lean);
 }
 
 std::vector<double> BentSkin::weights() const {
@@ -602,13 +617,18 @@ std::vector<double> BentSkin::weights() const {
     return weights;
 }
 
-/// The number of modes of a joint. With two, knees at 120 degrees would still intersect themselves;
-/// shoulders and hips gain next to nothing by a second one, which would cost time at every vertex.
-/// A joint between limbs that bends in any direction has as many shapes as directions.
-std::size_t modesOf(CorrectiveJoint::Basis basis) {
-    return basis == CorrectiveJoint::Basis::TurnedHinge ? 3
-           : basis == CorrectiveJoint::Basis::Ball      ? 1
-                                                        : CorrectiveJoint::kMaxModes;
+/// The number of modes of a joint. With two, knees at 120 degrees would still intersect themselves,
+/// and raised arms fold. The small slides of necks, wrists and ankles need two. A joint between
+/// limbs that bends in any direction has as many shapes as directions.
+std::size_t modesOf(const ShapedJoint& joint, CorrectiveJoint::Basis basis) {
+    switch (basis) {
+    case CorrectiveJoint::Basis::TurnedHinge:
+        return 3;
+    case CorrectiveJoint::Basis::Ball:
+        return !(joint.slide > 0.0) ? 1 : joint.isSoft ? 2 : 3;
+    default:
+        return CorrectiveJoint::kMaxModes;
+    }
 }
 
 /// Negligible displacement, in radii of the limb: of all vertices by a mode, and of a vertex by its
@@ -644,15 +664,16 @@ JointShapes shapesOf(const ShapedJoint& joint) {
     const double volumeAtRest = BentSkin::volumeOf(joint, atRest);
     std::optional<JointSections> sections;
     if (!joint.isAtTrunk()) sections.emplace(joint);
+    const SkinRelaxation relaxation(joint);
     for (const BendTwist& bend : bendsOf(joint)) {
         shapes.samples.push_back(
             joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
         const BentSkin skin(joint, bend, sections ? sections->childDepth() : 0.5);
         // A hinge's splines can meet all of its shapes.
-        if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge)
+        if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge && !joint.isSoft)
             shapes.weights.push_back(skin.weights());
-        const std::vector<glm::dvec3> targets =
-            skin.targets(volumeAtRest, sections ? &*sections : nullptr);
+        const Points targets =
+            relaxation.relaxed(skin.targets(volumeAtRest, sections ? &*sections : nullptr), bend);
         std::vector<glm::dvec3>& offsets = shapes.offsets.emplace_back();
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const ShapedJoint::Vertex& vertex = joint.vertices[i];
@@ -681,7 +702,7 @@ FittedShapes fastShapesOf(const ShapedJoint& joint) {
     JointShapes shapes = shapesOf(turnedWherePossible(joint));
     const CorrectiveJoint::Basis basis = shapes.functions.basis;
     if (basis == CorrectiveJoint::Basis::TurnedHinge) fadeSmallOffsets(joint.radius, shapes);
-    FittedShapes result = fitShapes(shapes, {modesOf(basis), kFitTolerance * joint.radius});
+    FittedShapes result = fitShapes(shapes, {modesOf(joint, basis), kFitTolerance * joint.radius});
     if (basis != CorrectiveJoint::Basis::Round) result.tolerance = kMinVertexOffset * joint.radius;
     return result;
 }
@@ -690,6 +711,8 @@ Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<Plann
                            const WeldedMesh& mesh, const Binding& binding) {
     std::vector<FittedShapes> all;
     for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding))
+        all.push_back(fastShapesOf(joint));
+    for (const ShapedJoint& joint : findSoftJoints(joints, mesh, binding))
         all.push_back(fastShapesOf(joint));
     return packShapes(all, mesh.weldedOf);
 }

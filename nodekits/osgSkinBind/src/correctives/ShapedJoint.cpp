@@ -166,6 +166,40 @@ constexpr double kSampleStep = 15.0;
 constexpr double kRoundSampleStep = 10.0;
 constexpr int kDirections = 12;
 
+/// How the skin of people's joints moves, fitted to captured people (README.md, "Like captured
+/// people"): ShapedJoint::slide and ShapedJoint::relaxation.
+struct SkinMotion {
+    double slide, relaxation;
+};
+constexpr double kCrease = 0.35; ///< relaxation of joints between limbs, and of those at the trunk
+constexpr SkinMotion kShoulder{0.33, kCrease}, kElbow{0.18, kCrease}, kWrist{0.45, 0.5};
+constexpr SkinMotion kHip{0.19, kCrease}, kKnee{0.10, kCrease}, kAnkle{0.2, 1.0};
+constexpr SkinMotion kNeck{0.3, 2.0}, kCollarBone{0.0, 0.8};
+constexpr SkinMotion kOtherLimb{0.0, kCrease}, kNone{0.0, 0.0};
+
+SkinMotion motionOfLimb(const std::vector<PlannedJoint>& joints, std::size_t joint, bool atTrunk) {
+    if (carries(joints, joint, JointPart::Hand)) return atTrunk ? kShoulder : kElbow;
+    if (carries(joints, joint, JointPart::Foot)) return atTrunk ? kHip : kKnee;
+    return kOtherLimb;
+}
+
+SkinMotion softMotion(const std::vector<PlannedJoint>& joints, std::size_t joint) {
+    const PlannedJoint& planned = joints[joint];
+    if (planned.isCollarBone()) return kCollarBone;
+    if (planned.isExtremity())
+        return planned.part == JointPart::Hand   ? kWrist
+               : planned.part == JointPart::Foot ? kAnkle
+                                                 : kNone;
+    const bool isNeck = planned.kind == JointKind::Limb && carries(joints, joint, JointPart::Head);
+    return isNeck ? kNeck : kNone;
+}
+
+/// The reach of soft joints, how far they bend in degrees, and the share of a rigid part from which
+/// skin follows it unchanged.
+constexpr ShapeReach kSoftReach{3.5, 4.5};
+constexpr double kMostSoftSwing = 90.0;
+constexpr double kRigidFrom = 0.85;
+
 double sineOfHalf(double degrees) {
     return std::sin(glm::radians(0.5 * degrees));
 }
@@ -317,9 +351,12 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.above = atTrunk ? planned.boneAxis : planned.comingFrom;
         shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
-        if (atTrunk)
+        const SkinMotion motion = motionOfLimb(joints, j, atTrunk);
+        shaped.slide = motion.slide;
+        shaped.relaxation = motion.relaxation;
+        if (atTrunk) {
             setBallRange(acrossOf(joints, j), shaped, scope.mostSwing);
-        else {
+        } else {
             const std::optional<glm::dvec3> mainAxis = findMainAxis(skeleton, joints, j);
             setBendRange(mainAxis, acrossOf(joints, j), shaped, scope.mostFlexion, scope.knotStep);
             if (mainAxis) shaped.hinge = findHinge(skeleton, joints, j, *mainAxis);
@@ -342,6 +379,43 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                     return shaped.vertices.size() < kMinVertices;
                                 }),
                  result.end());
+    return result;
+}
+
+std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
+                                        const WeldedMesh& mesh, const Binding& binding) {
+    const JointRatios ratios(mesh, binding);
+    const bool insideOut = isInsideOut(mesh);
+    std::vector<ShapedJoint> result;
+    std::vector<double> bend(mesh.vertexCount());
+    for (std::uint32_t j = 1; j < joints.size(); ++j) {
+        const PlannedJoint& planned = joints[j];
+        const SkinMotion motion = softMotion(joints, j);
+        if (!planned.holdsRegion() || !(motion.relaxation > 0.0)) continue;
+        for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
+        ShapedJoint shaped;
+        shaped.radius = radiusAt(planned, mesh, bend);
+        if (!(shaped.radius > 0.0)) continue;
+        shaped.isSoft = true;
+        shaped.slide = motion.slide;
+        shaped.relaxation = motion.relaxation;
+        shaped.centre = planned.centre;
+        shaped.twistAxis = binding.joints[j].twistAxis;
+        shaped.above = shaped.bone = planned.boneAxis;
+        shaped.functions.joint = j;
+        setBallRange(acrossOf(joints, j), shaped, kMostSoftSwing);
+        addSkin(mesh, joints, ratios, true, insideOut, kSoftReach, Armpit{kSoftReach}, shaped);
+        for (ShapedJoint::Vertex& vertex : shaped.vertices) {
+            // addSkin() lets go of rigid parts already where they begin, which here is halfway.
+            // Heads, hands and feet may be split off later.
+            double rigid = ratios.rigid(vertex.index, joints);
+            if (planned.isExtremity()) rigid = std::max(rigid, vertex.bend);
+            if (vertex.fade > 0.0)
+                vertex.fade = kSoftReach.shareAt(glm::length(vertex.from) / shaped.radius) *
+                              hermiteRatio((1.0 - rigid) / (1.0 - kRigidFrom));
+        }
+        if (shaped.vertices.size() >= kMinVertices) result.push_back(std::move(shaped));
+    }
     return result;
 }
 

@@ -52,6 +52,14 @@ struct ShapedJoint {
                                ///< perpendicular to the bone, bends twist, too
     double radius = 0.0;       ///< of the limb at the joint
     glm::dvec3 away{0.0};      ///< unit, or 0 without an armpit; see Armpit
+    /// How far skin halfway between the bones moves along with the bent bone, in radii, for each
+    /// unit by which the bone's direction changes. Captured people's skin does; a rotation about
+    /// the joint leaves it behind.
+    double slide = 0.0;
+    double relaxation = 0.0; ///< how far the posed skin is smoothed, in radii; see SkinRelaxation
+    /// Neither a joint between two limbs nor one between a limb and the trunk: its skin slides and
+    /// is smoothed all over, and has no other shape.
+    bool isSoft = false;
 
     /// A vertex within the joint's reach.
     struct Vertex {
@@ -115,6 +123,12 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding,
                                           const ShapeScope& scope = {});
+
+/// Finds the joints whose skin only slides and is smoothed (ShapedJoint::isSoft): necks, collar
+/// bones, wrists and ankles.
+/// \param binding of the mesh before welding
+std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
+                                        const WeldedMesh& mesh, const Binding& binding);
 
 /// Sets basis, axis, range and knots of a joint's functions.
 /// \param mainAxis of findMainAxis(); a joint without one bends in any direction
