@@ -40,7 +40,7 @@ done
 grep -q "'m' late throw 0.00" "$folder/says.txt" || fail "m does not go to the next motion"
 grep -q "osgSkin without shapes" "$folder/says.txt" || fail "4 does not take the shapes off"
 grep -q "'u' .*muscles tensed" "$folder/says.txt" || fail "u does not tense muscles"
-grep -q "'n' .*normals turned" "$folder/says.txt" || fail "n does not turn normals"
+grep -q "'n' .*normals rotated" "$folder/says.txt" || fail "n does not turn normals"
 grep -q "x-1" "$folder/says.txt" || fail "r does not turn the time round"
 
 "$program" --out "$folder" --keys '?' 2>"$folder/error.txt" && fail "an unknown key was taken"
