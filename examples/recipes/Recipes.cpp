@@ -3,6 +3,7 @@
 #include "Ground.h"
 
 #include <osgSkin/DeformableSkin>
+#include <osgSkinCharacter/LoadCharacter>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Group>
@@ -25,7 +26,7 @@ Scene largeWorld(File);
 Scene levelsOfDetail(File);
 Scene loadAndPlay(File);
 Scene lookAtTarget(File);
-Scene makeCrowd(File);
+Scene makeCrowd(osg::Node&);
 Scene makeFace(File);
 Scene ownShader(File);
 Scene pickPoint(File);
@@ -122,7 +123,7 @@ const std::vector<Recipe>& recipes() {
          true},
         {"makeFace", makeFace, "face.osgb", 1.5, {Vec3d(-0.28, -0.75, 1.68), Vec3d(0, 0, 1.655)}},
         {"makeCrowd",
-         makeCrowd,
+         [](File file) { return makeCrowd(*osgSkin::loadCharacter(file).root); },
          "walker.skin",
          0.4,
          {Vec3d(9, -5, 1.6), Vec3d(11, 3, 0.95)},

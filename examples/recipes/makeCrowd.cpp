@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinGpu/GpuCrowd>
 
 #include <osg/FrameStamp>
@@ -18,9 +17,9 @@ struct PlayCrowd : osg::NodeCallback {
 
 } // namespace
 
-/// A thousand members of one character, each in its own phase of one of its clips.
-osg::ref_ptr<osg::Node> makeCrowd(const std::string& file) {
-    const auto character = osgSkin::CrowdCharacter::create(*osgSkin::loadCharacter(file).root);
+/// A thousand members of one character, loaded or saved, each in its own phase of one of its clips.
+osg::ref_ptr<osg::Node> makeCrowd(osg::Node& of) {
+    const auto character = osgSkin::CrowdCharacter::create(of);
     const double step = 0.55 * (character->bounds().zMax() - character->bounds().zMin());
     const osg::ref_ptr<osgSkin::GpuCrowd> crowd = new osgSkin::GpuCrowd(character);
     std::vector<osgSkin::CrowdInstance> members(1000);

@@ -202,6 +202,19 @@ double waistRadius(const std::vector<PlannedJoint>& joints, const std::vector<do
     return radius;
 }
 
+/// Whether the joint is in the middle of an arm or a leg.
+bool isElbowOrKnee(const std::vector<PlannedJoint>& joints, std::size_t index) {
+    const std::size_t above = regionAbove(joints, index);
+    if (carries(joints, above, JointPart::Head)) return false;
+    const auto isLimb = [&joints](std::size_t j) {
+        return carries(joints, j, JointPart::Hand) || carries(joints, j, JointPart::Foot);
+    };
+    std::size_t limbs = 0; // two begin at hips
+    for (std::size_t j = above + 1; j < joints.size(); ++j)
+        if (joints[j].parent == static_cast<int>(above) && isLimb(j)) ++limbs;
+    return limbs == 1 && isLimb(index);
+}
+
 /// The first widths to try, in rest units.
 /// \param limb whether the joint is a limb's
 /// \param onLimb whether the joint above is a limb's
@@ -219,12 +232,9 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
         return {std::min(widths.above, kDigit * joint.lengthAbove),
                 std::min(widths.below, kDigit * joint.boneLength)};
     }
-    const bool isElbowOrKnee =
-        !joints[regionAbove(joints, index)].isOfTrunk() &&
-        (carries(joints, index, JointPart::Hand) || carries(joints, index, JointPart::Foot));
-    Widths widths = times(!(limb && onLimb) ? kOther
-                          : isElbowOrKnee   ? kElbowOrKnee
-                                            : kBetweenLimbs);
+    Widths widths = times(!(limb && onLimb)              ? kOther
+                          : isElbowOrKnee(joints, index) ? kElbowOrKnee
+                                                         : kBetweenLimbs);
     if (carries(joints, index, JointPart::Head))
         return widths; // necks bend over their whole length
     if (onLimb) widths.above = std::min(widths.above, kMaxShareOfBone * joint.lengthAbove);
@@ -280,10 +290,10 @@ void equalise(const BinaryField& binary, const SkinSmoother& smoother, std::size
                     });
 }
 
-/// Widens the spread on skin far from the bone of its limb, in proportion to the distance, so that
-/// a skirt is not torn between the thighs.
+/// Widens the spread on skin far from the bone of its limb, so that a skirt is not torn between the
+/// legs: in proportion to the distance where limbs leave the trunk, else to what other limbs have.
 /// \param[in,out] share a factor of the width for each vertex; empty: 1 for all
-void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii,
+void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii, bool atTrunk,
                   std::vector<double>& share) {
     for (std::size_t v = 0; v < binary.regions.size(); ++v) {
         const std::uint32_t joint = binary.regions[v];
@@ -292,7 +302,7 @@ void widenFarSkin(const BinaryField& binary, const std::vector<double>& radii,
         const double far = distanceToBone(bone, binary.mesh.positions[v]) / radii[joint];
         if (far <= kFarFromBone) continue;
         if (share.empty()) share.assign(binary.regions.size(), 1.0);
-        share[v] *= std::min(far, kMax);
+        share[v] *= atTrunk ? std::min(far, kMax) : kBetweenLimbs.above / kElbowOrKnee.above;
     }
 }
 
@@ -364,7 +374,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
         share = gradientFactor(binary.mesh,
                                spread(smoother, start, widths, {}, isHeld, options.cutOff));
     const bool leavesTrunk = !share.empty();
-    if (binary.joints[above].isOfTrunk()) widenFarSkin(binary, radii, share);
+    const bool atTrunk = binary.joints[above].isOfTrunk();
+    if (atTrunk || isElbowOrKnee(binary.joints, joint)) widenFarSkin(binary, radii, atTrunk, share);
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);
