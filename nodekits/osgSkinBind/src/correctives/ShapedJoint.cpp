@@ -174,7 +174,7 @@ struct SkinMotion {
 constexpr double kCrease = 0.35; ///< relaxation of joints between limbs, and of those at the trunk
 constexpr SkinMotion kShoulder{0.33, kCrease}, kElbow{0.18, kCrease}, kWrist{0.45, 0.5};
 constexpr SkinMotion kHip{0.19, kCrease}, kKnee{0.10, kCrease}, kAnkle{0.2, 1.0};
-constexpr SkinMotion kNeck{0.3, 2.0}, kCollarBone{0.0, 0.8};
+constexpr SkinMotion kNeck{0.5, 0.5}, kCollarBone{0.0, 0.8};
 constexpr SkinMotion kNone{0.0, 0.0};
 
 SkinMotion motionOfLimb(const std::vector<PlannedJoint>& joints, std::size_t joint, bool atTrunk) {
