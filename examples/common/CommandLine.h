@@ -15,7 +15,7 @@ class Option;
 
 namespace example {
 
-/// What every program takes as its CHARACTER.
+/// The CHARACTER argument of every program.
 constexpr char kCharacterHelp[] =
     "a .skin file, a rigged model (model.glb, model.fbx.skin, ...) or a saved character (.osgb)";
 

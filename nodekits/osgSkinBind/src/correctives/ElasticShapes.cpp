@@ -333,7 +333,8 @@ Correctives makeElasticShapes(const RestSkeleton& skeleton, const std::vector<Pl
         unsolved.try_emplace(joint, "its bend axis is not known");
     }
     for (const ShapedJoint& soft : findSoftJoints(joints, mesh, binding))
-        fitted[soft.functions.joint] = fastShapesOf(soft);
+        if (fitted.count(soft.functions.joint) == 0)
+            fitted[soft.functions.joint] = fastShapesOf(soft);
     for (const auto& [joint, reason] : unsolved)
         notes.push_back("joint \"" + skeleton.joints[joint].name + "\" has " +
                         (fitted.count(joint) != 0 ? "fast" : "no") +

@@ -197,7 +197,7 @@ SkinMotion softMotion(const std::vector<PlannedJoint>& joints, std::size_t joint
 /// The reach of soft joints, how far they bend in degrees, and the share of a rigid part from which
 /// skin follows it unchanged.
 constexpr ShapeReach kSoftReach{3.5, 4.5};
-constexpr double kMostSoftSwing = 90.0;
+constexpr double kMaxSoftSwing = 90.0;
 constexpr double kRigidFrom = 0.85;
 
 double sineOfHalf(double degrees) {
@@ -403,7 +403,7 @@ std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
         shaped.twistAxis = binding.joints[j].twistAxis;
         shaped.above = shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
-        setBallRange(acrossOf(joints, j), shaped, kMostSoftSwing);
+        setBallRange(acrossOf(joints, j), shaped, kMaxSoftSwing);
         addSkin(mesh, joints, ratios, true, insideOut, kSoftReach, Armpit{kSoftReach}, shaped);
         for (ShapedJoint::Vertex& vertex : shaped.vertices) {
             // addSkin() lets go of rigid parts already where they begin, which here is halfway.
