@@ -390,8 +390,9 @@ std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
     std::vector<double> bend(mesh.vertexCount());
     for (std::uint32_t j = 1; j < joints.size(); ++j) {
         const PlannedJoint& planned = joints[j];
+        if (!planned.holdsRegion()) continue;
         const SkinMotion motion = softMotion(joints, j);
-        if (!planned.holdsRegion() || !(motion.relaxation > 0.0)) continue;
+        if (!(motion.relaxation > 0.0)) continue;
         for (std::uint32_t v = 0; v < bend.size(); ++v) bend[v] = ratios.bend(v, j);
         ShapedJoint shaped;
         shaped.radius = radiusAt(planned, mesh, bend);

@@ -27,7 +27,7 @@ constexpr double kCompressed = 0.6, kLoose = 1.0;
 constexpr double kMinCotangent = 0.05, kMaxCotangent = 5.0;
 
 /// Of the squared width: areas below it count as this much.
-constexpr double kMinArea = 1e-9;
+constexpr double kSmallArea = 1e-9;
 
 Eigen::MatrixXd columnsOf(const Points& points, Eigen::Index count) {
     Eigen::MatrixXd columns =
@@ -50,7 +50,7 @@ SkinRelaxation::SkinRelaxation(const ShapedJoint& joint) : _joint(joint) {
     const auto count = static_cast<Eigen::Index>(joint.vertices.size());
     const double width = joint.relaxation * joint.radius;
     const double time = 0.5 * width * width / kSteps;
-    _mass = Eigen::VectorXd::Constant(count, kMinArea * width * width);
+    _mass = Eigen::VectorXd::Constant(count, kSmallArea * width * width);
     std::vector<Eigen::Triplet<double>> entries; // of M + time L
     for (const std::array<std::uint32_t, 3>& t : joint.triangles)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ SkinRelaxation::SkinRelaxation(const ShapedJoint& joint) : _joint(joint) {
             const glm::dvec3 toA = joint.vertices[a].from - joint.vertices[c].from;
             const glm::dvec3 toB = joint.vertices[b].from - joint.vertices[c].from;
             const double area =
-                std::max(glm::length(glm::cross(toA, toB)), kMinArea * width * width);
+                std::max(glm::length(glm::cross(toA, toB)), kSmallArea * width * width);
             const double cotangent =
                 std::clamp(glm::dot(toA, toB) / area, kMinCotangent, kMaxCotangent);
             const double weight = 0.5 * time * cotangent;
@@ -79,7 +79,7 @@ SkinRelaxation::SkinRelaxation(const ShapedJoint& joint) : _joint(joint) {
     for (const ShapedJoint::Vertex& vertex : joint.vertices) rest.push_back(vertex.from);
     const Columns smoothed = smooth(columnsOf(rest, 3));
     for (std::size_t i = 0; i < rest.size(); ++i) _smoothedAtRest.push_back(pointAt(smoothed, i));
-    _areasAtRest = areasOf(rest).cwiseMax(kMinArea * width * width);
+    _areasAtRest = areasOf(rest).cwiseMax(kSmallArea * width * width);
 }
 
 std::vector<glm::dvec3> SkinRelaxation::relaxed(Points points, const BendTwist& bend) const {
