@@ -218,8 +218,10 @@ bool isElbowOrKnee(const std::vector<PlannedJoint>& joints, std::size_t index) {
 /// The first widths to try, in rest units.
 /// \param limb whether the joint is a limb's
 /// \param onLimb whether the joint above is a limb's
+/// \param elbowOrKnee isElbowOrKnee(), if both are limbs'
 Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, bool limb,
-                   bool onLimb, const std::vector<double>& radii, double smoothing) {
+                   bool onLimb, bool elbowOrKnee, const std::vector<double>& radii,
+                   double smoothing) {
     const PlannedJoint& joint = joints[index];
     const double radius = joint.isSpine() ? waistRadius(joints, radii, radii[index]) : radii[index];
     const auto times = [&](const Widths& widths) {
@@ -232,9 +234,7 @@ Widths firstWidths(const std::vector<PlannedJoint>& joints, std::size_t index, b
         return {std::min(widths.above, kDigit * joint.lengthAbove),
                 std::min(widths.below, kDigit * joint.boneLength)};
     }
-    Widths widths = times(!(limb && onLimb)              ? kOther
-                          : isElbowOrKnee(joints, index) ? kElbowOrKnee
-                                                         : kBetweenLimbs);
+    Widths widths = times(elbowOrKnee ? kElbowOrKnee : limb && onLimb ? kBetweenLimbs : kOther);
     if (carries(joints, index, JointPart::Head))
         return widths; // necks bend over their whole length
     if (onLimb) widths.above = std::min(widths.above, kMaxShareOfBone * joint.lengthAbove);
@@ -365,7 +365,9 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
             field = fromBorder(smoother, start, width, options.cutOff);
         return field;
     }
-    Widths widths = firstWidths(binary.joints, joint, limb, onLimb, radii, options.smoothing);
+    const bool elbowOrKnee = limb && onLimb && isElbowOrKnee(binary.joints, joint);
+    Widths widths =
+        firstWidths(binary.joints, joint, limb, onLimb, elbowOrKnee, radii, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     const std::vector<bool> isHeld = // an arm follows its collar bone fully
         planned.isCollarBone() ? skinOf(binary, planned.child) : std::vector<bool>();
@@ -375,7 +377,7 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
                                spread(smoother, start, widths, {}, isHeld, options.cutOff));
     const bool leavesTrunk = !share.empty();
     const bool atTrunk = binary.joints[above].isOfTrunk();
-    if (atTrunk || isElbowOrKnee(binary.joints, joint)) widenFarSkin(binary, radii, atTrunk, share);
+    if (atTrunk || elbowOrKnee) widenFarSkin(binary, radii, atTrunk, share);
     std::vector<double> field;
     for (int i = 0; i < kTries; ++i) {
         field = spread(smoother, start, widths, share, isHeld, options.cutOff);
