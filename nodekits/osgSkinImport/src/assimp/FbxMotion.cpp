@@ -500,6 +500,7 @@ private:
         if (hasRange && end > stack.stop) add(stack.stop, stack.stop);
         if (!isCurved || result.empty()) return result;
         std::vector<double> keys;
+        keys.reserve(result.size());
         for (const auto& [time, source] : result) keys.push_back(time);
         for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
             const double pieces = std::ceil((keys[k + 1] - keys[k]) / kStep - 1e-6);
