@@ -78,7 +78,7 @@ if(TARGET osgSkinCharacter)
     "osgSkinBind osgSkinImport osgSkinGpu")
 endif()
 if(TARGET osgdb_serializers_osgskin)
-  install(TARGETS osgdb_serializers_osgskin
+  install(TARGETS osgdb_serializers_osgskin osgdb_serializers_osgskinrig
     LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT serializers)
 endif()
 if(TARGET osgdb_skin)

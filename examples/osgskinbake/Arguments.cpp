@@ -111,14 +111,16 @@ void requireDifferentFiles(const Arguments& arguments) {
     const std::string& out = arguments.out;
     // The rest pose and the frames may share a library: its contents are the same.
     const std::string ofOut = libraryOf(out), ofRest = libraryOf(arguments.rest);
-    for (const std::string& file : {out, arguments.rest, arguments.binding, arguments.pose, ofOut,
-                                    ofRest == ofOut ? std::string() : ofRest}) {
+    for (const std::string& file :
+         {out, arguments.rest, arguments.binding, arguments.pose, arguments.walker, ofOut,
+          ofRest == ofOut ? std::string() : ofRest}) {
         if (file.empty()) continue;
         const bool isFrame = file != out && isFrameOf(out, file);
         if (isFrame || !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
-            throw UsageError{"expected a file of its own for each of --out, --rest, --binding and "
-                             "--pose, and for the materials of the first two, found \"" +
-                             file + "\" twice"};
+            throw UsageError{
+                "expected a file of its own for each of --out, --rest, --binding, "
+                "--pose and --walker, and for the materials of the first two, found \"" +
+                file + "\" twice"};
     }
 }
 
@@ -156,11 +158,30 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     const auto rest = line.add("--rest", arguments.rest, "write the bind pose").valueOptional();
     line.add("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
     line.add("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
+    const auto walker =
+        line.add("--walker", arguments.walker,
+                 "write a pedestrian that walks by itself (.osgb), see osgSkin::Walker");
+    osgSkin::WalkerOptions& gaits = arguments.walkerOptions;
+    const char* const clip = "a clip of the character, or a motion file (FILE, FILE#CLIP)";
+    line.add("--walk", gaits.walking, std::string("the walker's walk: ") + clip).needs(walker);
+    line.add("--run", gaits.running, "its run").needs(walker);
+    line.add("--idle", gaits.standing, "how it stands").needs(walker);
+    line.add("--gesture", gaits.others, "a clip of its upper body, as waving; repeatable")
+        .needs(walker);
+    std::string faces = "x";
+    line.add("--faces", faces, "where the walker looks: x, as in traffic simulators, or -y")
+        .oneOf({"x", "-y"})
+        .needs(walker);
     line.add("--formats", arguments.formats,
              "what may be read, as skin,obj,osgb, or all; by default no .osgb, .osgt, .osgx, .osg "
              "or .ive file that a .skin file names");
     line.add("--quiet", arguments.quiet, "no progress and no summary");
     line.parse(argc, argv);
+    if (faces == "-y") gaits.forward = osgSkin::WalkerOptions::Forward::MinusY;
+    if (walker.isGiven() && extensionOf(arguments.walker) != "osgb" &&
+        extensionOf(arguments.walker) != "osgt" && extensionOf(arguments.walker) != "osgx")
+        throw UsageError{"--walker: expected a file whose name ends in .osgb, found \"" +
+                         arguments.walker + "\""};
     if (!frames.empty()) arguments.frames = example::FrameRange::parse(frames);
     for (const std::string& word : tensed)
         arguments.activations.push_back(parseNamed("--tense", word));

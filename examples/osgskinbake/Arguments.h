@@ -5,6 +5,7 @@
 #include "FrameRange.h"
 
 #include <osgSkinCharacter/LoadOptions>
+#include <osgSkinRig/MakeWalker>
 
 #include <cstddef>
 #include <optional>
@@ -27,6 +28,8 @@ struct Arguments {
     std::string rest;    ///< file for the bind pose; empty for none
     std::string binding; ///< JSON file for the binding; empty for none
     std::string pose;    ///< JSON file for the poses; empty for none
+    std::string walker;  ///< .osgb file for a walker; empty for none
+    osgSkin::WalkerOptions walkerOptions;
     std::string formats; ///< value of the option `formats`; empty if not given
     bool list = false;   ///< only list joints, clips, morph targets and muscles
     bool quiet = false;

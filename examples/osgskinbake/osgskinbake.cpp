@@ -5,6 +5,7 @@
 #include "ObjWriter.h"
 #include "PosedMesh.h"
 #include "ProgressLine.h"
+#include "WalkerFile.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/DeformableSkin>
@@ -18,6 +19,8 @@
 
 #include <nlohmann/json.hpp>
 #include <osg/NodeVisitor>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
 
 #include <algorithm>
 #include <cmath>
@@ -350,15 +353,30 @@ void reportOtherThings(const Character& character) {
                   << (others.count == 1 ? "\"\n" : "\", ...\n") << std::flush;
 }
 
-Character load(const Arguments& arguments) {
+/// Loads the motion files among a walker's clips, and names the clips that they become.
+void addMotionFiles(Arguments& arguments, osgSkin::LoadOptions& options) {
+    osgSkin::WalkerOptions& gaits = arguments.walkerOptions;
+    std::vector<std::string*> clips = {&gaits.walking, &gaits.running, &gaits.standing};
+    for (std::string& gesture : gaits.others) clips.push_back(&gesture);
+    for (std::string* clip : clips) {
+        const std::size_t mark = clip->rfind('#');
+        const std::string file = clip->substr(0, mark);
+        if (file.empty() || !osgDB::fileExists(file)) continue;
+        options.moreMotions.push_back(*clip);
+        *clip = mark == std::string::npos ? osgDB::getStrippedName(file) : clip->substr(mark + 1);
+    }
+}
+
+Character load(Arguments& arguments) {
     const std::string& file = arguments.character;
     example::ProgressLine line(file, arguments.quiet);
     osgSkin::LoadOptions options = arguments.options;
     options.progress = line.progress();
+    addMotionFiles(arguments, options);
     if (!arguments.formats.empty())
         options.readOptions = new osgDB::Options("formats=" + arguments.formats);
     Character character = osgSkin::loadCharacter(file, options);
-    if (!character.hasBody() && !arguments.list)
+    if (!character.hasBody() && !arguments.list && arguments.walker.empty())
         throw osgSkin::Error(file + ": a saved character or several; the mesh is not known. Bake "
                                     "the .skin file or the model that it was made of");
     return character;
@@ -399,22 +417,24 @@ void tense(Character& character, const Arguments& arguments) {
 /// Bad usage where nothing was asked for: says how many frames there are.
 UsageError nothingToWrite(Character& character, const Arguments& arguments) {
     const SampledMotion motion = chooseMotion(character, arguments);
-    return UsageError("nothing to write: expected --out, --rest, --binding or --pose; \"" +
-                      motion.name + "\" has " +
-                      std::to_string(chooseFrames(arguments, motion).count()) +
-                      " frames, for example for --out frame_%04d.obj or --out frames.glb");
+    return UsageError(
+        "nothing to write: expected --out, --rest, --binding, --pose or --walker; \"" +
+        motion.name + "\" has " + std::to_string(chooseFrames(arguments, motion).count()) +
+        " frames, for example for --out frame_%04d.obj or --out frames.glb");
 }
 
-int run(const Arguments& arguments) {
+int run(Arguments arguments) {
     Character character = load(arguments);
     if (arguments.list) {
         list(character);
         return 0;
     }
-    if (arguments.out.empty() && arguments.rest.empty() && arguments.binding.empty() &&
-        arguments.pose.empty())
-        throw nothingToWrite(character, arguments);
+    const bool writesMeshes = !arguments.out.empty() || !arguments.rest.empty() ||
+                              !arguments.binding.empty() || !arguments.pose.empty();
+    if (!writesMeshes && arguments.walker.empty()) throw nothingToWrite(character, arguments);
     bake::keepFiles(character.files);
+    if (!arguments.walker.empty()) bake::writeWalker(character, arguments);
+    if (!writesMeshes) return 0;
     tense(character, arguments);
     morph(character, arguments);
     if (!arguments.motion.empty()) chooseMotion(character, arguments); // before writing any file

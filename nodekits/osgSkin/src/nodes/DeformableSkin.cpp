@@ -292,7 +292,8 @@ bool DeformableSkin::setPose(const JointMap* own, std::size_t count,
 bool DeformableSkin::setPose(const Pose& pose, const osg::BoundingBox& bounds) {
     bool changed = false;
     if (!_model || !_pose.setJoints(pose, &changed)) return false;
-    if (changed) poseChanged(bounds);
+    const osg::BoundingBox& known = _extras ? _extras->poseBounds : _buffers[0]->getInitialBound();
+    if (changed || bounds._min != known._min || bounds._max != known._max) poseChanged(bounds);
     return true;
 }
 

@@ -136,6 +136,11 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
     } else if (options.motion) {
         applyMotion(source, *options.motion, options.readOptions.get());
     }
+    if (options.atRest) return;
+    for (const std::string& more : options.moreMotions) {
+        applyMotion(source, more, options.readOptions.get());
+        std::rotate(source.motions.begin(), source.motions.begin() + 1, source.motions.end());
+    }
 }
 
 } // namespace osgSkin

@@ -3,6 +3,7 @@
 
 #include "clips/BakedClip.h"
 #include "clips/ClipBones.h"
+#include "clips/JointMaps.h"
 
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
@@ -21,21 +22,6 @@ namespace {
 
 double finite(double number) {
     return std::isfinite(number) ? number : 0.0;
-}
-
-JointMap mapOf(const JointSample& joint, const glm::dvec3& centre) {
-    return {joint.rotation, centre + joint.translation - joint.scale * (joint.rotation * centre),
-            joint.scale};
-}
-
-JointMap operator*(const JointMap& a, const JointMap& b) {
-    return {a.rotation * b.rotation, a.offset + a.scale * (a.rotation * b.offset),
-            a.scale * b.scale};
-}
-
-JointMap inverse(const JointMap& a) {
-    const glm::dquat back = glm::conjugate(a.rotation);
-    return {back, -(back * a.offset) / a.scale, 1.0 / a.scale};
 }
 
 osg::Matrixd toMatrix(const JointMap& map) {

@@ -173,6 +173,36 @@ osg::ref_ptr<const SampledClip> SampledClip::create(const osgAnimation::Animatio
     return result;
 }
 
+osg::ref_ptr<const SampledClip> SampledClip::create(const std::string& name,
+                                                    std::vector<Joint> joints,
+                                                    std::vector<JointSample> samples, double step) {
+    const auto fail = [&name](const std::string& what) {
+        throw Error("sampled clip \"" + name + "\": " + what);
+    };
+    if (joints.empty()) fail("no joint");
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j].parent < -1 || joints[j].parent >= static_cast<int>(j))
+            fail("the parent of joint " + std::to_string(j) + " does not precede it");
+    if (samples.empty() || samples.size() % joints.size() != 0)
+        fail(std::to_string(samples.size()) + " samples of " + std::to_string(joints.size()) +
+             " joints");
+    if (!(step > 0.0) || !std::isfinite(step)) fail("the step is not above 0");
+    for (JointSample& sample : samples) {
+        const double length = glm::length(sample.rotation);
+        if (!(std::abs(length - 1.0) < 1e-3) || !(sample.scale > 0.0) ||
+            !std::isfinite(sample.scale + glm::dot(sample.translation, glm::dvec3(1.0))))
+            fail("a sample that is no transform");
+        sample.rotation /= length;
+    }
+    const osg::ref_ptr<SampledClip> result = new SampledClip;
+    result->_name = name;
+    result->_joints = std::move(joints);
+    result->_samples = std::move(samples);
+    result->_step = step;
+    result->findRoot();
+    return result;
+}
+
 void SampledClip::findRoot() {
     for (std::size_t j = 0; j < _joints.size(); ++j)
         for (std::size_t f = 1; f < sampleCount(); ++f)

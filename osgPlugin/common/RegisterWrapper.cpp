@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "RegisterWrapper.h"
 
-#include "KitCheck.h"
-#include "osgSkinBuild.h"
-
 std::unique_ptr<osgDB::RegisterWrapperProxy>
 registerWrapper(osgDB::ObjectWrapper::CreateInstanceFunc* create, const std::string& name,
                 const std::string& bases, osgDB::RegisterWrapperProxy::AddPropFunc add) {
-    static const bool mayUse =
-        plugin::mayUse("osgdb_serializers_osgskin", {OSGSKIN_KIT_BUILD(osgSkin)});
+    static const bool mayUse = mayUseKits();
     if (!mayUse) return nullptr;
     return std::make_unique<osgDB::RegisterWrapperProxy>(create, name, bases, add);
 }

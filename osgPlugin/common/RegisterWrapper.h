@@ -6,8 +6,11 @@
 #include <memory>
 #include <string>
 
-/// Registers a wrapper for the lifetime of the result. Registers nothing if the loaded runtime is
-/// of another build; the first call then warns.
+/// Whether the loaded kits are those that this module was compiled with, see plugin::mayUse(). Each
+/// module has its own, in LibraryWrapper.cpp.
+bool mayUseKits();
+
+/// Registers a wrapper for the lifetime of the result. Registers nothing unless mayUseKits().
 std::unique_ptr<osgDB::RegisterWrapperProxy>
 registerWrapper(osgDB::ObjectWrapper::CreateInstanceFunc* create, const std::string& name,
                 const std::string& bases, osgDB::RegisterWrapperProxy::AddPropFunc add);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "WalkerFile.h"
+
+#include "Bytes.h"
+
+#include <osgSkin/Error>
+#include <osgSkinRig/MakeWalker>
+
+#include <osgDB/FileNameUtils>
+#include <osgDB/Options>
+#include <osgDB/Registry>
+
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace bake {
+namespace {
+
+void tell(const osgSkin::WalkerReport& report) {
+    const auto gait = [](const char* does, const std::string& clip, double speed, double slide) {
+        std::cerr << does << " \"" << osgSkin::onOneLine(clip) << "\", " << std::setprecision(3)
+                  << speed << " m/s; planted feet of the clip slide by " << 100.0 * slide
+                  << " % of its stride\n";
+    };
+    gait("walks as", report.walking, report.walkSpeed, report.walkSlide);
+    if (report.running.empty())
+        std::cerr << "has no clip to run by: it walks faster\n";
+    else
+        gait("runs as", report.running, report.runSpeed, report.runSlide);
+    if (report.standing.empty())
+        std::cerr << "has no clip to stand by: it stands as it walks, on straight legs\n";
+    else
+        std::cerr << "stands as \"" << osgSkin::onOneLine(report.standing) << "\"\n";
+    std::cerr << std::flush;
+}
+
+} // namespace
+
+void writeWalker(osgSkin::Character& character, const Arguments& arguments) {
+    osgSkin::WalkerReport report;
+    const osg::ref_ptr<osgSkin::Walker> walker =
+        osgSkin::makeWalker(*character.root, arguments.walkerOptions, &report);
+    // Textures go into the file, which then needs no other one.
+    const osg::ref_ptr<osgDB::Options> options =
+        new osgDB::Options("WriteImageHint=IncludeData Compressor=zlib");
+    const std::string extension = osgDB::getLowerCaseFileExtension(arguments.walker);
+    if (extension != "osgb") options->setPluginStringData("fileType", "Ascii");
+    osgDB::ReaderWriter* const writer =
+        osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    std::ostringstream bytes;
+    if (!writer || !writer->writeNode(*walker, bytes, options).success())
+        throw osgSkin::Error(arguments.walker + ": OpenSceneGraph could not write the walker");
+    writeBytes(arguments.walker, bytes.str());
+    if (!arguments.quiet) tell(report);
+}
+
+} // namespace bake

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Arguments.h"
+
+#include <osgSkinCharacter/Character>
+
+namespace bake {
+
+/// Writes the character as a walker, and says what it does.
+/// \throw osgSkin::Error as makeWalker(), and where the file cannot be written
+void writeWalker(osgSkin::Character& character, const Arguments& arguments);
+
+} // namespace bake
