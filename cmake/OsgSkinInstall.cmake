@@ -91,7 +91,7 @@ if(TARGET osgskinbake)
   osgskin_install_program(osgskinthrow "show a figure that throws a ball")
   osgskin_install_program(osgskinviewer "play a character and show how its skin is bound")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${CMAKE_INSTALL_DATADIR}/osgskin"
-    COMPONENT programs FILES_MATCHING PATTERN "*.skin" PATTERN "*.obj" PATTERN "*.bvh"
+    COMPONENT programs FILES_MATCHING PATTERN "*.skin" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.bvh"
     PATTERN generator EXCLUDE)
 endif()
 
