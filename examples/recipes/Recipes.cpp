@@ -28,6 +28,7 @@ Scene loadAndPlay(File);
 Scene lookAtTarget(File);
 Scene makeCrowd(osg::Node&);
 Scene makeFace(File);
+Scene makePedestrians(osg::Node&);
 Scene ownShader(File);
 Scene pickPoint(File);
 Scene reachTarget(File);
@@ -128,6 +129,15 @@ const std::vector<Recipe>& recipes() {
          0.4,
          {Vec3d(9, -5, 1.6), Vec3d(11, 3, 0.95)},
          Floor::Own},
+        {"makePedestrians",
+         [](File file) { return makePedestrians(*osgSkin::loadCharacter(file).root); },
+         "walker.skin",
+         0.4,
+         {Vec3d(-7, -7, 3.2), Vec3d(0.4, 0.4, 0.5)},
+         Floor::Plain,
+         false,
+         {},
+         true},
         {"deformOnCard", deformOnCard, "walker.skin", 0.25, kFigure, Floor::Plain},
         {"ownShader", ownShader, "walker.skin", 0.25, {Vec3d(-1.3, -3.3, 1.5), Vec3d(0, 0, 0.98)}},
         {"shipAsOsgb", shipAsOsgb, "walker.skin", 0.75, kFigure},

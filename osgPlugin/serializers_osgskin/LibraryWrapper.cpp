@@ -7,6 +7,7 @@
 #include <osgDB/Registry>
 
 USE_SERIALIZER_WRAPPER(osgSkin_AutoPlayManager)
+USE_SERIALIZER_WRAPPER(osgSkin_CharacterGroup)
 USE_SERIALIZER_WRAPPER(osgSkin_CullPlayedSkeleton)
 USE_SERIALIZER_WRAPPER(osgSkin_DeformableSkin)
 USE_SERIALIZER_WRAPPER(osgSkin_FormerClasses)

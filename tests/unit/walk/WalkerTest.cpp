@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "WalkedPath.h"
 
+#include <osgSkin/CharacterGroup>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -173,6 +175,37 @@ TEST(Walker, WavesOnceWhileItWalks) {
     EXPECT_GT(handHeight(), 1.5);
     for (int i = 0; i < 75; ++i) handHeight();
     EXPECT_LT(handHeight(), 1.2);
+}
+
+TEST(Walker, WalksInACharacterGroupAsAlone) {
+    const osg::ref_ptr<osgSkin::CharacterGroup> group = new osgSkin::CharacterGroup;
+    const osg::ref_ptr<osgSkin::Walker> figure = walking::makeFigureWalker();
+    std::vector<osg::ref_ptr<osg::MatrixTransform>> places;
+    std::vector<Walk> alone;
+    for (int i = 0; i < 10; ++i) {
+        places.push_back(new osg::MatrixTransform);
+        places.back()->addChild(osg::clone(figure.get(), osg::CopyOp()));
+        group->addChild(places.back());
+        alone.emplace_back(osg::clone(figure.get(), osg::CopyOp()));
+    }
+    for (int frame = 0; frame < 60; ++frame) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const osg::Vec3d position(0.01 * double(i + 1) * frame, 0, 0);
+            places[i]->setMatrix(osg::Matrix::translate(position));
+            alone[i].show(position, 0.0, 0.02);
+        }
+        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+        stamp->setFrameNumber(static_cast<unsigned int>(frame) + 1);
+        stamp->setSimulationTime(0.02 * (frame + 1));
+        osgUtil::UpdateVisitor visitor;
+        visitor.setFrameStamp(stamp);
+        group->accept(visitor);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            ASSERT_EQ(walking::difference(walking::verticesOf(*places[i]),
+                                          walking::verticesOf(*alone[i].transform)),
+                      0.0);
+    }
+    EXPECT_EQ(group->ordinaryChildren(), 0u);
 }
 
 } // namespace
