@@ -67,7 +67,7 @@ TEST(CharacterGroup, PosesAsAnyGroup) {
 
 TEST(CharacterGroup, DeformsWhatWasSeen) {
     const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
-    Street street(group, 3);
+    Street street(group, 2);
     street.show(0.0);
     street.show(0.1);
     test::updateAt(*group, 0.2);
