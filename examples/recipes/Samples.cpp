@@ -275,4 +275,7 @@ void writeSamples(const std::string& data, const std::string& folder) {
     write(folder + "/coarse.skin", skinFile("coarse.obj", skeleton));
     writeFace(data + "/thrower.skin", folder + "/face.osgb");
     writeRig(folder + "/walker.skin", folder + "/rig.osgt");
+    for (const auto& file : std::filesystem::directory_iterator(data))
+        if (file.path().filename().string().rfind("pedestrian", 0) == 0)
+            std::filesystem::copy(file, folder, std::filesystem::copy_options::overwrite_existing);
 }

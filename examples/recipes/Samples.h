@@ -10,6 +10,7 @@
 /// | `walker.skin`, `walk.bvh`, `wave.bvh` | the thrower's body with two clips that loop |
 /// | `coarse.skin`, `coarse.obj` | the same with a fifth of the triangles |
 /// | `face.osgb` | a standing figure with the morph targets "smile" and "blink" |
+/// | `pedestrian.skin` and its files | the pedestrian of `data` |
 /// | `rig.osgt` | an osgAnimation::RigGeometry with weights, and its clip |
 ///
 /// \throw std::exception where a file cannot be read or written

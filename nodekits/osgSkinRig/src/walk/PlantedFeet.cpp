@@ -63,8 +63,7 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
             isStopping ? foot.isPlanted : !goes || gait.contacts[side].contains(_phase);
         if (carries && !foot.isPlanted) plant(foot, side);
         if (foot.isPlanted && foot.step < 0.0) {
-            const double down =
-                towards(foot.offset.z(), _floor[side] - ballOf(side).z(), _leg * dt);
+            const double down = towards(foot.offset.z(), _floor - soleOf(side), _leg * dt);
             foot.offset = flat(foot.ball * toWalker - ballOf(side));
             foot.offset.z() = down;
             foot.turn = wrapped(angleOf(osg::Matrixd::transform3x3(foot.heading, toWalker)) -
@@ -97,7 +96,7 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
     else
         stepOnTheSpot(dt);
     for (std::size_t side = 0; side < _feet.size(); ++side) // nothing sinks into the floor
-        _feet[side].offset.z() = std::max(_feet[side].offset.z(), _floor[side] - ballOf(side).z());
+        _feet[side].offset.z() = std::max(_feet[side].offset.z(), _floor - soleOf(side));
 }
 
 /// Brings standing feet to their place, one after the other.

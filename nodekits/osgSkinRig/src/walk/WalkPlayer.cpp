@@ -34,7 +34,13 @@ WalkPlayer::WalkPlayer(const osg::ref_ptr<const Gaits>& gaits)
     for (std::size_t side = 0; side < set.legs.size(); ++side) {
         _leg += 0.5 * legLength(set.legs[side]);
         _height += 0.5 * jointOf(set.legs[side].hip).z();
-        _floor[side] = ballOf(side).z();
+        // A third of the foot behind the ankle, on the floor on which the ball is.
+        const osg::Vec3d ball = ballOf(side), ankle = jointOf(set.legs[side].ankle);
+        osg::Vec3d heel = ankle - (ball - ankle) / 3.0;
+        heel.z() = ball.z();
+        _heels[side] = apply(inverse(_whole[set.legs[side].ankle]),
+                             toGlm(heel * osg::Matrixd::inverse(set.toWalker)));
+        _floor = std::min(_floor, ball.z());
     }
 }
 
@@ -46,6 +52,13 @@ osg::Vec3d WalkPlayer::jointOf(std::size_t joint) const {
 osg::Vec3d WalkPlayer::ballOf(std::size_t side) const {
     const Gaits::Leg& leg = _gaits->get().legs[side];
     return toOsg(apply(_whole[leg.ankle], leg.ball)) * _gaits->get().toWalker;
+}
+
+/// The height of the lower one of ball and heel.
+double WalkPlayer::soleOf(std::size_t side) const {
+    const Gaits::Set& set = _gaits->get();
+    const osg::Vec3d heel = toOsg(apply(_whole[set.legs[side].ankle], _heels[side])) * set.toWalker;
+    return std::min(ballOf(side).z(), heel.z());
 }
 
 double WalkPlayer::legLength(const Gaits::Leg& leg) const {

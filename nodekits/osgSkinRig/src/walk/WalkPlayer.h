@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace osgSkin {
@@ -85,6 +86,7 @@ private:
     void bendLegs();
     void lowerHips(const std::array<osg::Vec3d, 2>& targets);
     osg::Vec3d ballOf(std::size_t side) const;
+    double soleOf(std::size_t side) const;
     osg::Vec3d jointOf(std::size_t joint) const;
     void rotateJoint(std::size_t joint, const glm::dquat& world);
     void findLeg(std::size_t first, std::size_t last);
@@ -96,7 +98,9 @@ private:
     const osg::Vec3d _forward;        ///< in which it looks
     const glm::dquat _toWalker;       ///< the rotation of the gaits' toWalker
     double _unit = 1.0;               ///< walker units for one of rest space
-    std::array<double, 2> _floor{};   ///< heights of the standing balls of the feet
+    std::array<glm::dvec3, 2> _heels; ///< behind the ankles on the floor, rest space
+    /// The height of the standing feet's balls.
+    double _floor = std::numeric_limits<double>::infinity();
     double _height = 0.0, _leg = 0.0; ///< of the hips above the floor; from hip to ankle
 
     osg::Matrixd _place;
