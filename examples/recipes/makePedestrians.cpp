@@ -5,9 +5,6 @@
 #include <osg/FrameStamp>
 #include <osg/MatrixTransform>
 #include <osg/NodeCallback>
-#include <osg/NodeVisitor>
-
-#include <cmath>
 
 namespace {
 

@@ -63,8 +63,7 @@ double stepOfEnvironment() {
 }
 
 osg::Matrixd placeOf(const osg::NodeVisitor& nv) {
-    osg::NodePath path = nv.getNodePath();
-    return osg::computeLocalToWorld(path);
+    return osg::computeLocalToWorld(nv.getNodePath());
 }
 
 } // namespace
