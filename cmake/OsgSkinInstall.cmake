@@ -7,10 +7,10 @@
 #                                                 a saved character needs
 #   import       libosgskinimport0.4     MIT      libosgSkinImport
 #   dev          libosgskin-dev          MIT      headers, CMake and pkg-config files of these kits
-#   bind         libosgskinbind0.4       GPL      libosgSkinBind, libosgSkinCharacter
-#   plugin       osgskin-plugin          GPL      the .skin plug-in
-#   binddev      libosgskinbind-dev      GPL      headers, CMake and pkg-config files of these kits
-#   programs     osgskin-tools           GPL      the programs, their man pages, the thrower
+#   bind         libosgskinbind0.4       MIT      libosgSkinBind, libosgSkinCharacter
+#   plugin       osgskin-plugin          MIT      the .skin plug-in
+#   programs     osgskin-tools           MIT      the programs, their man pages, the thrower
+#   binder       osgskin-binder          GPL      the plug-in that binds without painted weights
 # All paths are relative, so the installed tree can be moved.
 include(CMakePackageConfigHelpers)
 
@@ -71,10 +71,10 @@ if(TARGET osgSkinImport)
     "osgSkinRig openscenegraph-osgDB")
 endif()
 if(TARGET osgSkinBind)
-  osgskin_install_kit(osgSkinBind bind binddev "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
+  osgskin_install_kit(osgSkinBind bind dev "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
 endif()
 if(TARGET osgSkinCharacter)
-  osgskin_install_kit(osgSkinCharacter bind binddev "From a file to a character for osgSkin"
+  osgskin_install_kit(osgSkinCharacter bind dev "From a file to a character for osgSkin"
     "osgSkinBind osgSkinImport osgSkinGpu")
 endif()
 if(TARGET osgdb_serializers_osgskin)
@@ -83,6 +83,10 @@ if(TARGET osgdb_serializers_osgskin)
 endif()
 if(TARGET osgdb_skin)
   install(TARGETS osgdb_skin LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT plugin)
+endif()
+if(TARGET osgdb_binder_osgskin)
+  install(TARGETS osgdb_binder_osgskin
+    LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT binder)
 endif()
 if(TARGET osgskinbake)
   osgskin_install_program(osgskinbake "write a character's posed skin as meshes")
@@ -128,13 +132,19 @@ if(TARGET osgSkinImport)
 endif()
 if(TARGET osgSkinBind)
   osgskin_package(bind libosgskinbind${OSGSKIN_SOVERSION} libs runtime)
-  osgskin_package(binddev libosgskinbind-dev libdevel bind dev)
+  list(APPEND CPACK_COMPONENT_DEV_DEPENDS bind)
 endif()
 if(TARGET osgSkinCharacter)
   list(APPEND CPACK_COMPONENT_BIND_DEPENDS import)
 endif()
 if(TARGET osgdb_skin)
   osgskin_package(plugin osgskin-plugin graphics bind)
+endif()
+if(TARGET osgdb_binder_osgskin)
+  osgskin_package(binder osgskin-binder graphics bind)
+  foreach(component BIND PLUGIN PROGRAMS)
+    set(CPACK_DEBIAN_${component}_PACKAGE_RECOMMENDS osgskin-binder)
+  endforeach()
 endif()
 if(TARGET osgskinbake)
   osgskin_package(programs osgskin-tools graphics plugin serializers)

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Any small mesh of any number of shells and any small skeleton, bound by each method. There are
 // few different coordinates, so that points coincide and are collinear or coplanar.
 #include "Attempt.h"

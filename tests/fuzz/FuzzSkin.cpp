@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Any bytes as a `.skin` file beside a small body, skeleton, motion and weights, up to the
 // character.
 #include "Attempt.h"

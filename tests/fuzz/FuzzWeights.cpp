@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Any bytes as a file of painted weights for a body with two joints.
 #include "Attempt.h"
 #include "InputFile.h"

@@ -35,7 +35,8 @@ KITS = {
     "osgSkinRig": ["runtime_test", "importTests", "bindTests", "system_test"],
     "osgSkinGpu": ["gpu_test --gtest_filter=-OldDriver.*"],
     "osgSkinImport": ["importTests", "system_test"],
-    "osgSkinBind": ["bindTests", "elasticTests", "system_test"],
+    "osgSkinBind": ["bindTests", "system_test"],
+    "osgSkinBinder": ["bindTests", "elasticTests", "system_test"],
     "osgSkinCharacter": ["system_test"],
 }
 RULES = [

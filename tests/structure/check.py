@@ -34,6 +34,7 @@ class House:
         self.breaches = []
         self.licence = {}  # kit -> SPDX name
         self.needs = {}  # kit -> kits
+        self.inside = {}  # kit -> the kits of these whose internal headers it may include
         self.rooms = collections.defaultdict(list)  # kit -> rooms, bottom to top
         self.headers = {}  # (kit, public header without a source) -> room
         self.tables = {}  # path -> why it has no header
@@ -53,8 +54,9 @@ class House:
                 continue
             if words[0] == "kit":
                 kit, self.licence[words[1]] = words[1], words[2]
-                self.needs[kit] = words[4:]
-                for other in words[4:]:
+                self.needs[kit] = [word.removesuffix("*") for word in words[4:]]
+                self.inside[kit] = [word.removesuffix("*") for word in words[4:] if word.endswith("*")]
+                for other in self.needs[kit]:
                     if other not in self.needs or other == kit:
                         self.breach(path, f"{kit} needs {other}, which does not stand above it")
             elif words[0] == "table":
@@ -87,6 +89,11 @@ class House:
         else:
             room = self.public_room(kit, path.name)
         return (kit, room) if room in self.rooms.get(kit, []) else None
+
+    def internal(self, kit, header):
+        """The path of ROOM/File.h as a source of the kit includes it; its own where none exists."""
+        found = [self.root / "nodekits" / k / "src" / header for k in (kit, *self.inside.get(kit, []))]
+        return next((path for path in found if path.is_file()), found[0])
 
     def public_room(self, kit, header):
         sources = self.root / "nodekits" / kit / "src"
@@ -163,13 +170,13 @@ def check_includes(house):
                     continue
                 there = house.place(house.root / "nodekits" / kit / "include" / target)
             else:
-                file = house.root / "nodekits" / kit / "src" / target
+                file = house.internal(kit, target)
                 if not file.is_file():
                     house.breach(path, f'includes {include}, which is not ROOM/File.h in {kit}/src')
                     continue
                 there = house.place(file)
-            if not there:
-                continue  # reported when that file itself is checked
+            if not there or there[0] != kit:
+                continue  # reported when that file itself is checked, or of a kit below
             order = house.rooms[kit]
             if order.index(there[1]) > order.index(room):
                 house.breach(path, f"includes {include}: an arrow upward, {room} -> {there[1]}")
@@ -194,9 +201,9 @@ def check_users(house):
     tests = " ".join(p.read_text() for p in house.files("tests", "osgPlugin", "examples", "data") if is_code(p))
     paths = [p for p in house.files("nodekits") if is_code(p)]
     for path in paths:
-        kit = house.root / "nodekits" / path.relative_to(house.root / "nodekits").parts[0]
+        kit = path.relative_to(house.root / "nodekits").parts[0]
         for include in includes(path):
-            header = kit / "src" / include[1:-1]
+            header = house.internal(kit, include[1:-1])
             if include[0] == '"' and header.with_suffix("") != path.with_suffix(""):
                 users[header].add(path)
     for path in paths:

@@ -14,10 +14,12 @@ ROWS = PICTURE + "| low | `ground`, `first` |\n| high | `only` |\n"
 
 RECIPE = "# Recipes\n\n## A crowd\n![it](../pictures/recipes/makeCrowd.png)\n\n[makeCrowd.cpp](makeCrowd.cpp).\n"
 
+ROOMS = ("kit low MIT\n  ground  Export\n  first\n"
+         "kit high GPL-3.0-or-later needs low*\n  only\n"
+         "table nodekits/low/src/first/Table.cpp: numbers\n")
+
 SOUND = {
-    "nodekits/rooms.txt": "kit low MIT\n  ground  Export\n  first\n"
-                          "kit high GPL-3.0-or-later needs low\n  only\n"
-                          "table nodekits/low/src/first/Table.cpp: numbers\n",
+    "nodekits/rooms.txt": ROOMS,
     "nodekits/low/include/low/Export": MIT,
     "nodekits/low/include/low/Up": MIT + "#include <low/Export>\nnamespace n { void up(); }\n",
     "nodekits/low/src/ground/Base.h": MIT + "namespace n { int base(); struct S { int f(); }; }\n",
@@ -32,7 +34,7 @@ SOUND = {
     "nodekits/low/src/first/Table.cpp": MIT + "int table[] = {1};\n",
     "nodekits/high/src/only/Top.h": GPL + "#include <low/Up>\n",
     "nodekits/high/src/only/Top.cpp": GPL + '#include "only/Top.h"\n',
-    "nodekits/high/src/only/Other.cpp": GPL + '#include "only/Top.h"\n',
+    "nodekits/high/src/only/Other.cpp": GPL + '#include "ground/Base.h"\n#include "only/Top.h"\n',
     "nodekits/high/src/only/Another.cpp": GPL + '#include "only/Top.h"\n',
     "nodekits/README.md": ROWS + "# House\n\nSee [the base](low/src/ground/Base.cpp), `S::f()`, and [above](#house).\n",
     "README.md": "#include <osgSkin/A>\n// Shown.\nint a = 1;\n",
@@ -48,6 +50,8 @@ SOUND = {
 
 # The change, and the start of the expected complaint.
 BROKEN = [
+    ({"nodekits/rooms.txt": ROOMS.replace("*", "")},
+     'nodekits/high/src/only/Other.cpp: includes "ground/Base.h", which is not ROOM/File.h'),
     ({"nodekits/README.md": ROWS.replace("low <- high", "low, high")},
      "nodekits/README.md: its picture lets high need []; rooms.txt: ['low']"),
     ({"nodekits/low/src/ground/Base.h": MIT + "#include <low/Up>\n"},

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Messages about a user's mistakes: a suggestion, the known names, and the file at fault.
 #include "Command.h"
 #include "ExpectContains.h"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The single table of options, and its uses.
 #include "Command.h"
 #include "WhyRefused.h"

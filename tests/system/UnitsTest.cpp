@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A loaded scene is in metres, whatever the unit of its files.
 #include "Command.h"
 #include "DrawnSkin.h"

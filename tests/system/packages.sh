@@ -30,21 +30,23 @@ expect libosgskin0.4 libosgSkin.so.0.4 libosgSkinRig.so.0.4 libosgSkinGpu.so.0.4
 expect osgskin-serializers osgdb_serializers_osgskin.so
 expect libosgskinimport0.4 libosgSkinImport.so.0.4
 expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinImport/ImportMesh osgSkinConfig.cmake \
-  OsgTargets.cmake pkgconfig/osgSkin.pc libosgSkin.so
+  OsgTargets.cmake pkgconfig/osgSkin.pc libosgSkin.so include/osgSkinBind/Bind \
+  include/osgSkinCharacter/LoadCharacter osgSkinBindTargets.cmake pkgconfig/osgSkinCharacter.pc libosgSkinBind.so
 expect libosgskinbind0.4 libosgSkinBind.so.0.4 libosgSkinCharacter.so.0.4
-expect libosgskinbind-dev include/osgSkinBind/Bind include/osgSkinCharacter/LoadCharacter \
-  osgSkinBindTargets.cmake pkgconfig/osgSkinCharacter.pc libosgSkinBind.so
 expect osgskin-plugin osgdb_skin.so
+expect osgskin-binder osgdb_binder_osgskin.so
 expect osgskin-tools bin/osgskinbake bin/osgskinviewer bin/osgskincrowd bin/osgskinrecipes bin/osgskinthrow \
   share/osgskin/thrower.skin
 grep -qE 'gmp|mpfr|assimp|cgal' "$folder/libosgskin0.4.depends" &&
   fail "the runtime's package needs what only binding and importing need"
 # Packages under the MIT licence neither hold nor need one under the GPL.
-for package in libosgskin0.4 osgskin-serializers libosgskinimport0.4 libosgskin-dev; do
-  grep -qE 'osgskinbind|osgskin-plugin|osgskin-tools|gmp|mpfr' "$folder/$package.depends" &&
-    fail "$package needs a package under the GPL"
-  grep -qE 'osgSkin(Bind|Character)|osgdb_skin\.so' "$folder/$package.txt" && fail "$package holds a kit under the GPL"
+for package in libosgskin0.4 osgskin-serializers libosgskinimport0.4 libosgskinbind0.4 libosgskin-dev osgskin-plugin \
+  osgskin-tools; do
+  grep -qE 'binder|gmp|mpfr' "$folder/$package.depends" && fail "$package needs a package under the GPL"
+  grep -q binder "$folder/$package.txt" && fail "$package holds the binder"
 done
+grep -q 'osgskin-binder' <<<"$(dpkg-deb -f "$folder"/packages/osgskin-plugin_*.deb Recommends)" ||
+  fail "the plug-in does not recommend the binder"
 grep -q 'libosgskin0.4' "$folder/libosgskinbind0.4.depends" || fail "binding needs the runtime"
 grep -q 'libosgskinbind0.4' "$folder/osgskin-plugin.depends" || fail "the plug-in needs the kits"
 grep -q generator "$folder/osgskin-tools.txt" && fail "osgskin-tools holds sources"

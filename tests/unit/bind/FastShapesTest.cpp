@@ -5,6 +5,7 @@
 // Meshes that are not surfaces: solving equations on their vertices took minutes, and gigabytes.
 #include "KnownBody.h"
 #include "Shapes.h"
+#include "mesh/RequireSurface.h"
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Deform>

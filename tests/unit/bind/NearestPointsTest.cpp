@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/SurfaceQueries.h"
+#include "mesh/NearestPoints.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,14 +1,16 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <osgSkinBind/BindWeights>
 
+#include "bind/Binder.h"
 #include "bind/CheckOptions.h"
-#include "correctives/AddShapes.h"
 #include "joints/JointPlan.h"
-#include "mesh/SurfaceQueries.h"
+#include "mesh/NearestPoints.h"
 #include "mesh/WeldedMesh.h"
-#include "ratios/JointFields.h"
+#include "ratios/JointRatios.h"
+#include "ratios/PackInfluences.h"
 
 #include <osgSkin/Error>
+#include <osgSkinRig/JointRoles>
 
 #include <algorithm>
 #include <chrono>
@@ -168,8 +170,8 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
 
     BindReport found;
     const WeldedMesh skin(mesh, WeldedMesh::kCopies);
-    std::vector<std::string> aboutRegions; // not reported, as weights replace regions
-    const std::vector<PlannedJoint> joints = planJoints(skeleton, skin, options, aboutRegions);
+    const std::vector<PlannedJoint> joints =
+        planAxes(skeleton, skin, recogniseJoints(skeleton, options.names), options);
     WeightRows rows = weldedWeights(skin, weights, joints.size());
     if (const std::size_t gaps = inferMissingRoles(skin, rows))
         found.notes.push_back(std::to_string(gaps) +
@@ -191,7 +193,12 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
             if (binding.influences[i].isFractional()) ++partial;
         binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
     }
-    addShapes(skeleton, joints, skin, nullptr, options, options.progress, binding, found.notes);
+    if (options.shapes != BindOptions::Shapes::None || options.muscles ||
+        !options.ownMuscles.empty())
+        Binder::find("bind: a shape or a muscle")
+            ->completeWeights(mesh, skeleton, options, binding, found.notes);
+    else if (*options.surfaceNormals)
+        binding.gradients = ratioGradients(skin, binding);
     binding.validate();
 
     found.regions = regionsOf(binding);

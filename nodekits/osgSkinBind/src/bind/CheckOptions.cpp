@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "bind/CheckOptions.h"
 
 #include <osgSkin/Error>
@@ -73,6 +73,14 @@ void checkOptions(const RestSkeleton& skeleton, const BindOptions& options) {
         checkBoundaries(name, "bend", joint.bendUpper, joint.bendLower);
         checkBoundaries(name, "twist", joint.twistUpper, joint.twistLower);
     }
+}
+
+BindOptions decided(BindOptions options, bool ownRatios) {
+    const bool beyondPaper = ownRatios && options.method == BindOptions::Method::Smooth;
+    if (!options.shapes)
+        options.shapes = beyondPaper ? BindOptions::Shapes::Fast : BindOptions::Shapes::None;
+    if (!options.surfaceNormals) options.surfaceNormals = beyondPaper;
+    return options;
 }
 
 void checkInfluences(const std::vector<PlannedJoint>& joints,

@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #ifndef OSGSKINBIND_MESH_WELDEDMESH_H
 #define OSGSKINBIND_MESH_WELDEDMESH_H
 
+#include <osgSkinBind/Export>
 #include <osgSkinRig/SkinMesh>
 
 #include <array>
@@ -24,7 +25,8 @@ struct IndexRange {
 };
 
 /// All edges of triangles, in both directions, once for each triangle; sorted.
-std::vector<DirectedEdge> edgesOf(const std::vector<std::array<std::uint32_t, 3>>& triangles);
+OSGSKINBIND_EXPORT std::vector<DirectedEdge>
+edgesOf(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 /// Makes each vertex's list of neighbours.
 ///
@@ -32,16 +34,16 @@ std::vector<DirectedEdge> edgesOf(const std::vector<std::array<std::uint32_t, 3>
 /// \param edges sorted, each edge in both directions; duplicates count once
 /// \param firstNeighbour is set to offsets into `neighbours`: one for each vertex, and the end
 /// \param neighbours is set to the edges' ends, sorted for each vertex
-void listNeighbours(std::size_t vertices, const std::vector<DirectedEdge>& edges,
-                    std::vector<std::uint32_t>& firstNeighbour,
-                    std::vector<std::uint32_t>& neighbours);
+OSGSKINBIND_EXPORT void listNeighbours(std::size_t vertices, const std::vector<DirectedEdge>& edges,
+                                       std::vector<std::uint32_t>& firstNeighbour,
+                                       std::vector<std::uint32_t>& neighbours);
 
 /// The skin for binding: vertices at one position are merged, faces are triangles.
 ///
 /// OSG splits vertices at texture and normal seams, where walking along edges would stop. Closed
 /// pieces that touch, such as the boxes of a blocky figure, stay separate unless they share
 /// vertices in the mesh as given.
-struct WeldedMesh {
+struct OSGSKINBIND_EXPORT WeldedMesh {
     static constexpr std::uint32_t kNoShell = 0xffffffffu;
 
     std::vector<glm::dvec3> positions;
@@ -79,13 +81,6 @@ private:
     void findShells();
     void computeNormals();
 };
-
-/// Rejects meshes that are not a surface: very many triangles for few vertices, or triangles
-/// between random vertices. Sparse systems on a surface are solved in nearly linear time, since
-/// few vertices separate its graph into halves; on other graphs they take minutes and gigabytes.
-///
-/// \throw osgSkin::Error with what was found
-void requireSurface(const WeldedMesh& mesh);
 
 } // namespace osgSkin
 

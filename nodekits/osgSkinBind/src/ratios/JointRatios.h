@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #ifndef OSGSKINBIND_RATIOS_JOINTRATIOS_H
 #define OSGSKINBIND_RATIOS_JOINTRATIOS_H
 
@@ -6,6 +6,7 @@
 #include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Binding>
+#include <osgSkinBind/Export>
 
 #include <algorithm>
 #include <vector>
@@ -57,7 +58,8 @@ private:
 /// not partial, and at vertices without triangles.
 /// \param binding of the mesh that `mesh` was welded from
 /// \return one for each of the binding's influences
-std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh, const Binding& binding);
+OSGSKINBIND_EXPORT std::vector<RatioGradient> ratioGradients(const WeldedMesh& mesh,
+                                                             const Binding& binding);
 
 } // namespace osgSkin
 

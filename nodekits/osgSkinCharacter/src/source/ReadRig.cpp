@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "source/CharacterSource.h"
 
 #include "source/ApplyOptions.h"

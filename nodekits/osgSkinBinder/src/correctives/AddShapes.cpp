@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "correctives/AddShapes.h"
+
+#include "correctives/MakeShapes.h"
+#include "correctives/Muscles.h"
+#include "correctives/ShapeFit.h"
+#include "ratios/JointRatios.h"
+
+namespace osgSkin {
+
+using Shapes = BindOptions::Shapes;
+
+void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
+               const WeldedMesh& mesh, const SkinLayers* layers, const BindOptions& options,
+               const Progress& progress, Binding& binding, std::vector<std::string>& notes) {
+    if (options.shapes != Shapes::None) {
+        if (progress) progress({"shapes", 0.0});
+        binding.correctives = options.shapes == Shapes::Fast
+                                  ? makeFastShapes(skeleton, joints, mesh, binding)
+                                  : cachedElasticShapes(skeleton, joints, mesh, layers, options,
+                                                        progress, binding, notes);
+        if (progress) progress({"shapes", 1.0});
+    }
+    if (options.muscles || !options.ownMuscles.empty())
+        binding.correctives = mergeCorrectives(
+            binding.correctives, makeMuscles(skeleton, joints, mesh, binding, options, notes));
+    if (!*options.surfaceNormals) return;
+    binding.gradients = ratioGradients(mesh, binding);
+    if (!binding.correctives.empty()) addNormalCorrectives(mesh, binding);
+}
+
+double shareWithoutShapes(const BindOptions& options) {
+    switch (*options.shapes) {
+    case Shapes::None:
+        return 1.0;
+    case Shapes::Fast:
+        return 0.99;
+    case Shapes::Elastic:
+        return 0.03;
+    }
+    return 1.0;
+}
+
+} // namespace osgSkin
