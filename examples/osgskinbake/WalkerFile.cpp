@@ -7,6 +7,7 @@
 #include <osgSkinRig/MakeWalker>
 
 #include <osgDB/FileNameUtils>
+#include <osgDB/ObjectWrapper>
 #include <osgDB/Options>
 #include <osgDB/Registry>
 
@@ -38,6 +39,11 @@ void tell(const osgSkin::WalkerReport& report) {
 } // namespace
 
 void writeWalker(osgSkin::Character& character, const Arguments& arguments) {
+    // Without it OSG writes nothing, and reports success.
+    if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper("osgSkinRig::Walker"))
+        throw osgSkin::Error(
+            "the serializers of walkers (osgdb_serializers_osgskinrig) are missing: "
+            "expected OSG_LIBRARY_PATH to name the folder of osgSkin's plug-ins");
     osgSkin::WalkerReport report;
     const osg::ref_ptr<osgSkin::Walker> walker =
         osgSkin::makeWalker(*character.root, arguments.walkerOptions, &report);

@@ -353,6 +353,11 @@ void reportOtherThings(const Character& character) {
                   << (others.count == 1 ? "\"\n" : "\", ...\n") << std::flush;
 }
 
+bool writesMeshes(const Arguments& arguments) {
+    return !arguments.out.empty() || !arguments.rest.empty() || !arguments.binding.empty() ||
+           !arguments.pose.empty();
+}
+
 /// Loads the motion files among a walker's clips, and names the clips that they become.
 void addMotionFiles(Arguments& arguments, osgSkin::LoadOptions& options) {
     osgSkin::WalkerOptions& gaits = arguments.walkerOptions;
@@ -373,8 +378,11 @@ Character load(Arguments& arguments) {
     osgSkin::LoadOptions options = arguments.options;
     options.progress = line.progress();
     addMotionFiles(arguments, options);
-    if (!arguments.formats.empty())
-        options.readOptions = new osgDB::Options("formats=" + arguments.formats);
+    std::string words;
+    if (!arguments.formats.empty()) words = "formats=" + arguments.formats;
+    // A walker is one of many: fewer skins are faster. Meshes keep their materials.
+    if (!writesMeshes(arguments)) words += " colours=merged";
+    if (!words.empty()) options.readOptions = new osgDB::Options(words);
     Character character = osgSkin::loadCharacter(file, options);
     if (!character.hasBody() && !arguments.list && arguments.walker.empty())
         throw osgSkin::Error(file + ": a saved character or several; the mesh is not known. Bake "
@@ -429,12 +437,11 @@ int run(Arguments arguments) {
         list(character);
         return 0;
     }
-    const bool writesMeshes = !arguments.out.empty() || !arguments.rest.empty() ||
-                              !arguments.binding.empty() || !arguments.pose.empty();
-    if (!writesMeshes && arguments.walker.empty()) throw nothingToWrite(character, arguments);
+    if (!writesMeshes(arguments) && arguments.walker.empty())
+        throw nothingToWrite(character, arguments);
     bake::keepFiles(character.files);
     if (!arguments.walker.empty()) bake::writeWalker(character, arguments);
-    if (!writesMeshes) return 0;
+    if (!writesMeshes(arguments)) return 0;
     tense(character, arguments);
     morph(character, arguments);
     if (!arguments.motion.empty()) chooseMotion(character, arguments); // before writing any file

@@ -8,9 +8,11 @@
 
 #include <gtest/gtest.h>
 #include <osg/Image>
+#include <osg/Material>
 #include <osgDB/WriteFile>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <string>
 #include <utility>
@@ -174,4 +176,33 @@ TEST(ReadLimits, ParsesQuotedOptionValues) {
               (Words{{"a", ""}, {"b", ""}, {"c", "d e"}, {"f", ""}, {"g", "h"}}));
     EXPECT_EQ(osgSkin::optionValues("a=\"").size(), 1u);
     EXPECT_TRUE(osgSkin::optionValues(" \n").empty());
+}
+
+/// Three quads: two materials that differ in their colour alone, and one that shines.
+TEST(MeshMaterials, MergesColours) {
+    const std::string folder = testing::TempDir();
+    std::ofstream(folder + "merged.mtl") << "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nnewmtl "
+                                            "bright\nKd 0 1 0\nKs 1 1 1\nNs 90\n";
+    std::ofstream(folder + "merged.obj")
+        << "mtllib merged.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 0 0\nusemtl red\nf 1 2 3\n"
+           "usemtl blue\nf 2 4 3\nusemtl bright\nf 2 5 4\n";
+    EXPECT_EQ(osgSkin::importMesh(folder + "merged.obj").parts.size(), 3u);
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("colours=merged");
+    const ImportedMesh mesh = osgSkin::importMesh(folder + "merged.obj", options);
+    ASSERT_EQ(mesh.parts.size(), 2u);
+    const osg::Geometry& merged = *mesh.parts[0].geometry;
+    const auto& colours = static_cast<const osg::Vec4Array&>(*merged.getColorArray());
+    const auto count = [&](const osg::Vec4& colour) {
+        return std::count(colours.begin(), colours.end(), colour);
+    };
+    EXPECT_EQ(count({1, 0, 0, 1}), 3);
+    EXPECT_EQ(count({0, 0, 1, 1}), 3);
+    const auto* material = static_cast<const osg::Material*>(
+        merged.getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
+    EXPECT_EQ(material->getColorMode(), osg::Material::AMBIENT_AND_DIFFUSE);
+    // The faces and vertices of the mesh stay.
+    EXPECT_EQ(mesh.parts[0].sourceFace, (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(mesh.mesh.positions.size(), 5u);
+    EXPECT_THROW(osgSkin::importMesh(folder + "merged.obj", new osgDB::Options("colours=some")),
+                 osgSkin::Error);
 }

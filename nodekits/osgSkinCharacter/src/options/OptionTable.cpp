@@ -247,6 +247,10 @@ std::vector<Option> makeTable() {
              "file formats that may be read, as skin,obj,bvh,ply,gltf,glb, or all; all also "
              "allows a .skin file to name .osgb, .osgt, .osgx, .osg and .ive files"},
             "extension,extension"),
+        readingOption({"colours", "material",
+                       "merged: materials that differ in their colour alone become one skin whose "
+                       "vertices have the colours, which is faster"},
+                      "material|merged"),
         readingOption({"images", "none",
                        "more image formats, read by OpenSceneGraph; for trusted files, as ktx,dds"},
                       "extension,extension"),

@@ -81,6 +81,11 @@ ReadLimits ReadLimits::of(const osgDB::Options* options) {
         for (const auto& [name, count] : counts)
             if (key == name) *count = countOf(key, value);
         if (key == "formats") limits.formats = listOf(key, osgDB::convertToLowerCase(value));
+        if (key == "colours") {
+            if (value != "material" && value != "merged")
+                throw Error("option colours=" + value + ": expected material or merged");
+            limits.mergesColours = value == "merged";
+        }
         if (key == "images") limits.images = listOf(key, osgDB::convertToLowerCase(value));
     }
     return limits;

@@ -48,7 +48,7 @@ CornerMesh readMesh(const std::string& path, const osgDB::Options* options) {
 ImportedMesh importMesh(const std::string& path, const osgDB::Options* options) try {
     CornerMesh read = readMesh(path, options);
     checkMaterials(read, path, ReadLimits::of(options));
-    return finishMesh(std::move(read), path);
+    return finishMesh(std::move(read), path, ReadLimits::of(options));
 } catch (const std::bad_alloc&) {
     failFile(path, "out of memory");
 }

@@ -365,7 +365,7 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) tr
     ImportedRig result;
     CornerMesh body = readSceneMesh(scene, path, options);
     checkMaterials(body, path, limits);
-    result.body = finishMesh(std::move(body), path);
+    result.body = finishMesh(std::move(body), path, limits);
     const SceneSkeleton joints = readSceneSkeleton(scene, path, limits);
     result.rest = joints.rest;
     const std::vector<bool> moves = movedJoints(scene, joints);

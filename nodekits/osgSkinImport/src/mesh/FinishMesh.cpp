@@ -12,6 +12,9 @@
 #include <osgSkinRig/MorphsByVertex>
 #include <osgSkinRig/SkinMesh>
 
+#include <osg/Material>
+#include <osg/StateSet>
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -362,6 +365,63 @@ void finishColours(std::vector<glm::vec4>& colours) {
     }
 }
 
+/// A material as it is with the colours of vertices in place of its own; null where it has
+/// textures, a program, vertex colours already, or is transparent.
+osg::ref_ptr<osg::StateSet> withVertexColours(const osg::StateSet& state) {
+    const auto* const material =
+        dynamic_cast<const osg::Material*>(state.getAttribute(osg::StateAttribute::MATERIAL));
+    const auto side = osg::Material::FRONT_AND_BACK;
+    if (!material || !state.getTextureAttributeList().empty() ||
+        state.getAttribute(osg::StateAttribute::PROGRAM) ||
+        material->getColorMode() != osg::Material::OFF || material->getDiffuse(side).a() != 1.0f ||
+        material->getAmbient(side) != material->getDiffuse(side))
+        return nullptr;
+    const osg::ref_ptr<osg::StateSet> result =
+        osg::clone(&state, osg::CopyOp(osg::CopyOp::DEEP_COPY_STATEATTRIBUTES));
+    auto& own = static_cast<osg::Material&>(*result->getAttribute(osg::StateAttribute::MATERIAL));
+    own.setAmbient(side, osg::Vec4(1, 1, 1, 1));
+    own.setDiffuse(side, osg::Vec4(1, 1, 1, 1));
+    own.setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    own.setName("");
+    result->setName("");
+    return result;
+}
+
+/// Makes one material of those that differ in their colour alone.
+void mergeColours(CornerMesh& mesh) {
+    std::vector<osg::ref_ptr<osg::StateSet>> merged(mesh.stateSets.size());
+    std::vector<std::uint32_t> target(mesh.stateSets.size());
+    for (std::uint32_t m = 0; m < merged.size(); ++m) {
+        target[m] = m;
+        merged[m] = withVertexColours(*mesh.stateSets[m]);
+        for (std::uint32_t k = 0; k < m && merged[m]; ++k)
+            if (merged[k] && target[k] == k && merged[m]->compare(*merged[k], true) == 0) {
+                target[m] = k;
+                break;
+            }
+    }
+    const auto isShared = [&](std::uint32_t m) {
+        return std::count(target.begin(), target.end(), target[m]) > 1;
+    };
+    if (mesh.colours.empty()) mesh.colours.assign(mesh.normals.size(), glm::vec4(1.0f));
+    std::size_t corner = 0;
+    for (std::size_t f = 0; f < mesh.mesh.faceSizes.size(); ++f) {
+        const std::uint32_t m = mesh.materials[f];
+        const std::size_t end = corner + mesh.mesh.faceSizes[f];
+        if (isShared(m)) {
+            const auto& material = static_cast<const osg::Material&>(
+                *mesh.stateSets[m]->getAttribute(osg::StateAttribute::MATERIAL));
+            const osg::Vec4& colour = material.getDiffuse(osg::Material::FRONT_AND_BACK);
+            for (std::size_t k = corner; k < end; ++k)
+                mesh.colours[k] = {colour.r(), colour.g(), colour.b(), colour.a()};
+            mesh.materials[f] = target[m];
+        }
+        corner = end;
+    }
+    for (std::uint32_t m = 0; m < merged.size(); ++m)
+        if (target[m] == m && isShared(m)) mesh.stateSets[m] = merged[m];
+}
+
 /// Throws osgSkin::Error if an offset is not finite or too large.
 void checkMorphs(const std::vector<MorphTarget>& morphs, const std::string& path) {
     for (const MorphTarget& target : morphs)
@@ -397,7 +457,7 @@ void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadL
                            std::to_string(limit) + " (option maxSamples)");
 }
 
-ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
+ImportedMesh finishMesh(CornerMesh read, const std::string& path, const ReadLimits& limits) {
     if (read.mesh.faceSizes.empty()) failFile(path, "no face, expected at least one");
     try {
         read.mesh.validate();
@@ -416,6 +476,7 @@ ImportedMesh finishMesh(CornerMesh read, const std::string& path) {
     for (glm::vec2& t : read.texCoords)
         if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = glm::vec2(0.0f);
     finishColours(read.colours);
+    if (limits.mergesColours) mergeColours(read);
     finishTangents(read);
 
     ImportedMesh result;

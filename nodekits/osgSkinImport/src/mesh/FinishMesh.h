@@ -23,8 +23,11 @@ void checkVertices(const CornerMesh& mesh, const std::string& path, const ReadLi
 void checkMaterials(const CornerMesh& mesh, const std::string& path, const ReadLimits& limits);
 
 /// Checks the whole mesh, computes missing normals and makes its parts.
+/// \param read from the file
+/// \param path of the file
+/// \param limits say whether colours are merged
 /// \throw osgSkin::Error with the file and the position in it
-ImportedMesh finishMesh(CornerMesh read, const std::string& path);
+ImportedMesh finishMesh(CornerMesh read, const std::string& path, const ReadLimits& limits);
 
 } // namespace osgSkin
 

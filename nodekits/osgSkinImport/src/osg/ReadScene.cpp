@@ -46,7 +46,7 @@ osg::ref_ptr<osg::Node> readMeshScene(const std::string& path, const osgDB::Opti
         failFile(path, "not a scene format; use .osgt, .osgb, .osgx, .obj, .ply or .skin");
     CornerMesh read = isObj ? readObjMesh(path, options) : readPlyMesh(path, options);
     checkMaterials(read, path, ReadLimits::of(options));
-    const ImportedMesh mesh = finishMesh(std::move(read), path);
+    const ImportedMesh mesh = finishMesh(std::move(read), path, ReadLimits::of(options));
     const osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform;
     if (isObj && isRotated(options))
         scene->setMatrix(osg::Matrix(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1));
