@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mannequin {
@@ -55,8 +56,9 @@ const Finger kFingers[] = {
      {.0088, .0083, .0077, .0070}},
 };
 
-void sculptFinger(Sculpture& hand, const HandFrame& frame, const Finger& finger) {
-    const double spread = glm::radians(finger.spread);
+void sculptFinger(Sculpture& hand, const HandFrame& frame, const Finger& finger,
+                  const HandStyle& style) {
+    const double spread = glm::radians(finger.spread * style.spread);
     const glm::dvec3 level(std::cos(spread), std::sin(spread), 0);
     glm::dvec3 from = finger.knuckle;
     double bend = 0;
@@ -66,7 +68,7 @@ void sculptFinger(Sculpture& hand, const HandFrame& frame, const Finger& finger)
             from + (level * std::cos(bend) + glm::dvec3(0, 0, std::sin(bend))) * finger.length[i];
         hand.add(
             RoundCone{frame.world(from), frame.world(to), finger.radius[i], finger.radius[i + 1]},
-            0.004);
+            style.blend);
         from = to;
     }
 }
@@ -84,27 +86,27 @@ void sculptPalm(Sculpture& hand, const HandFrame& frame) {
     cone({0.022, 0.016, 0.008}, {0.050, 0.032, 0.010}, 0.0150, 0.0150);
 }
 
-void sculptThumb(Sculpture& hand, const HandFrame& frame) {
+void sculptThumb(Sculpture& hand, const HandFrame& frame, const HandStyle& style) {
     const glm::dvec3 joints[] = {
         {0.018, 0.018, 0.006}, {0.054, 0.040, 0.010}, {0.084, 0.056, 0.013}, {0.103, 0.064, 0.017}};
     const double radii[] = {0.0150, 0.0125, 0.0110, 0.0085};
     for (int i = 0; i < 3; ++i)
         hand.add(
             RoundCone{frame.world(joints[i]), frame.world(joints[i + 1]), radii[i], radii[i + 1]},
-            i == 0 ? 0.012 : 0.005);
+            std::max(i == 0 ? 0.012 : 0.005, style.blend));
     // The fold of skin between thumb and forefinger.
     hand.add(RoundCone{frame.world({0.045, 0.030, 0.003}), frame.world({0.070, 0.026, 0.002}),
                        0.0110, 0.0090},
-             0.014);
+             std::max(0.014, style.blend));
 }
 
 } // namespace
 
-void sculptHand(Sculpture& arm) {
+void sculptHand(Sculpture& arm, const HandStyle& style) {
     const HandFrame frame;
     sculptPalm(arm, frame);
-    sculptThumb(arm, frame);
-    for (const Finger& finger : kFingers) sculptFinger(arm, frame, finger);
+    sculptThumb(arm, frame, style);
+    for (const Finger& finger : kFingers) sculptFinger(arm, frame, finger, style);
 }
 
 } // namespace mannequin

@@ -3,6 +3,8 @@
 
 #include "BodyParts.h"
 
+#include <cmath>
+
 namespace mannequin {
 namespace {
 
@@ -71,7 +73,42 @@ void sculptEars(Sculpture& head) {
     head.carvePair(Ellipsoid{{0.087, 1.671, -0.005}, {0.0060, 0.0170, 0.0090}, turned}, 0.006);
 }
 
+void sculptPlainFace(Sculpture& head) {
+    head.carvePair(Ellipsoid{{0.034, 1.687, 0.102}, {0.022, 0.013, 0.020}, rotation(0, 18, 0)},
+                   0.016);
+    head.addPair(RoundCone{{0.012, 1.706, 0.092}, {0.050, 1.704, 0.076}, 0.0075, 0.0065}, 0.014);
+    head.add(RoundCone{{0, 1.694, 0.090}, {0, 1.655, 0.112}, 0.0085, 0.0105}, 0.014);
+    head.add(Ellipsoid{{0, 1.650, 0.108}, {0.0190, 0.0105, 0.0150}}, 0.010);
+    head.add(Ellipsoid{{0, 1.612, 0.0920}, {0.0260, 0.0130, 0.0120}}, 0.012);
+    head.addPair(Ellipsoid{{0.078, 1.667, -0.012}, {0.0120, 0.0310, 0.0190}, rotation(-12, -24, 0)},
+                 0.010);
+}
+
 } // namespace
+
+Sculpture sculptHair() {
+    Sculpture hair;
+    hair.add(Ellipsoid{{0, 1.713, -0.010}, {0.0835, 0.096, 0.100}}, 0.030);
+    hair.add(Ellipsoid{{0, 1.742, 0.022}, {0.070, 0.066, 0.078}}, 0.030);
+    hair.add(Ellipsoid{{0.012, 1.768, 0.048}, {0.050, 0.034, 0.044}}, 0.030); // parted on the right
+    return hair;
+}
+
+double hairLine(const glm::dvec3& point) {
+    // A plane from the brow over the ears to the nape, higher at the temples.
+    constexpr double kSlope = 1.08;
+    const double side = (point.y - 1.748 - kSlope * (point.z - 0.086) - 2.2 * point.x * point.x) /
+                        std::hypot(1, kSlope);
+    return smoothMin(side, point.y - 1.604, 0.03); // the nape is bare
+}
+
+Sculpture sculptPlainHead() {
+    Sculpture head;
+    sculptNeck(head);
+    sculptSkull(head);
+    sculptPlainFace(head);
+    return head;
+}
 
 Sculpture sculptHead() {
     Sculpture head;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "BvhWriter.h"
 
-#include "ThrowTiming.h"
-
 #include <cmath>
 #include <cstdio>
 #include <istream>
@@ -13,11 +11,12 @@
 namespace mannequin {
 namespace {
 
-/// Formats a number with six decimals in any locale, never as "-0.000000".
-std::string number(double value) {
-    const double rounded = std::round(value * 1e6) / 1e6;
+/// Formats a number in any locale, never as "-0.000000".
+std::string number(double value, int decimals = 6) {
+    const double unit = std::pow(10, decimals);
+    const double rounded = std::round(value * unit) / unit;
     char text[40];
-    std::snprintf(text, sizeof text, "%.6f", rounded == 0 ? 0.0 : rounded);
+    std::snprintf(text, sizeof text, "%.*f", decimals, rounded == 0 ? 0.0 : rounded);
     return text;
 }
 
@@ -52,13 +51,14 @@ void writeJoint(std::ostream& out, const Skeleton& skeleton, std::size_t i, Root
     out << outer << "}\n";
 }
 
-void writeRows(std::ostream& out, const std::vector<BvhRow>& rows) {
+void writeRows(std::ostream& out, const std::vector<BvhRow>& rows,
+               const MotionFormat& format = {}) {
     char step[40];
-    std::snprintf(step, sizeof step, "%.9f", 1.0 / kFrameRate);
+    std::snprintf(step, sizeof step, "%.9f", 1.0 / format.frameRate);
     out << "MOTION\nFrames: " << rows.size() << "\nFrame Time: " << step << "\n";
     for (const BvhRow& row : rows)
         for (std::size_t i = 0; i < row.size(); ++i)
-            out << number(row[i]) << (i + 1 < row.size() ? " " : "\n");
+            out << number(row[i], format.decimals) << (i + 1 < row.size() ? " " : "\n");
 }
 
 } // namespace
@@ -69,10 +69,11 @@ void writeRig(std::ostream& out, const Skeleton& skeleton) {
     writeRows(out, {BvhRow(3 * skeleton.joints().size(), 0.0)});
 }
 
-void writeMotion(std::ostream& out, const Skeleton& skeleton, const std::vector<BvhRow>& rows) {
+void writeMotion(std::ostream& out, const Skeleton& skeleton, const std::vector<BvhRow>& rows,
+                 const MotionFormat& format) {
     out << "HIERARCHY\n";
     writeJoint(out, skeleton, 0, Root::Moving, 0);
-    writeRows(out, rows);
+    writeRows(out, rows, format);
 }
 
 void writeBall(std::ostream& out, const std::vector<BvhRow>& rows) {

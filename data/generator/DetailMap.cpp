@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "DetailMap.h"
-#include "Primitives.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace mannequin {
 namespace {
 
-/// Edges inside the bounds have this length.
-struct Region {
-    RoundCone bounds;
-    double edgeLength;
-};
-
 constexpr double kPlain = 0.0345;
 constexpr double kGrowth = 0.28; // of the edge length per unit of distance from a region
 
-// The left side and the middle; the right side mirrors them.
-const Region kRegions[] = {
+const DetailRegion kRegions[] = {
 
     {{{0.000, 1.612, 0.098}, {0.018, 1.612, 0.094}, 0.010, 0.009}, 0.0045},   // mouth
     {{{0.000, 1.680, 0.105}, {0.000, 1.648, 0.115}, 0.010, 0.018}, 0.0055},   // nose
@@ -45,13 +39,20 @@ const Region kRegions[] = {
 
 } // namespace
 
+DetailMap::DetailMap(double plain, std::vector<DetailRegion> regions)
+    : _plain(plain), _regions(std::move(regions)) {}
+
 double DetailMap::edgeLength(const glm::dvec3& point) const {
     const glm::dvec3 left(std::abs(point.x), point.y, point.z);
-    double length = kPlain;
-    for (const Region& region : kRegions)
+    double length = _plain;
+    for (const DetailRegion& region : _regions)
         length = std::min(length, region.edgeLength +
                                       kGrowth * std::max(0.0, region.bounds.distance(left)));
     return length;
+}
+
+DetailMap bareDetail() {
+    return {kPlain, {std::begin(kRegions), std::end(kRegions)}};
 }
 
 } // namespace mannequin

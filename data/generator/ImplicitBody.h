@@ -7,13 +7,13 @@
 
 namespace mannequin {
 
-/// The body as a smooth implicit surface: approximate signed distance to the skin in metres,
-/// negative inside. Symmetric in x.
+/// A body as a smooth implicit surface.
 class ImplicitBody {
 public:
-    ImplicitBody();
+    virtual ~ImplicitBody() = default;
 
-    double distance(const glm::dvec3& point) const;
+    /// Approximate signed distance to the skin in metres, negative inside.
+    virtual double distance(const glm::dvec3& point) const = 0;
 
     glm::dvec3 gradient(const glm::dvec3& point) const;
 
@@ -23,11 +23,12 @@ public:
     /// A nearby point on the skin.
     glm::dvec3 projected(glm::dvec3 point) const;
 
-    glm::dvec3 lowerCorner() const;
-    glm::dvec3 upperCorner() const;
-
-private:
-    Sculpture _trunk, _head, _arm, _leg;
+    virtual glm::dvec3 lowerCorner() const = 0;
+    virtual glm::dvec3 upperCorner() const = 0;
 };
+
+/// Distance to a part, or to its bounds if those are far away: there the field is only used to
+/// skip empty space.
+double distanceWithin(const Sculpture& part, const glm::dvec3& point, const RoundCone& bounds);
 
 } // namespace mannequin

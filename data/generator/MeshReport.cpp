@@ -21,8 +21,7 @@
 namespace mannequin {
 namespace {
 
-constexpr double kSliver = 20;      // degrees
-constexpr double kFarthest = 0.009; // metres; a missing fingertip or ear exceeds it
+constexpr double kSliver = 20; // degrees
 
 double smallestAngle(const SkinMesh& mesh, SkinMesh::Face_index face) {
     double smallest = 180;
@@ -65,9 +64,10 @@ void inspectFidelity(const SkinMesh& mesh, const SkinMesh& model, MeshReport& re
 
 } // namespace
 
-bool MeshReport::good() const {
-    return vertices >= 3500 && vertices <= 4500 && eulerCharacteristic == 2 && closed &&
-           intersections == 0 && smallestAngle >= 15 && deviation < kFarthest &&
+bool MeshReport::good(const MeshBounds& bounds) const {
+    return vertices >= bounds.leastVertices && vertices <= bounds.mostVertices &&
+           eulerCharacteristic == 2 && closed && intersections == 0 &&
+           smallestAngle >= bounds.leastAngle && deviation < bounds.mostDeviation &&
            jointsOutside.empty();
 }
 

@@ -9,6 +9,13 @@
 
 namespace mannequin {
 
+/// Bounds that a good skin keeps.
+struct MeshBounds {
+    std::size_t leastVertices, mostVertices;
+    double leastAngle;    ///< degrees
+    double mostDeviation; ///< metres
+};
+
 /// Checks that a skin can be deformed: one closed manifold without folds or slivers, around its
 /// bones.
 struct MeshReport {
@@ -24,8 +31,8 @@ struct MeshReport {
     glm::dvec3 worstPlace{0};       ///< position of that vertex
     std::vector<std::string> jointsOutside;
 
-    /// True if the mesh has every property required of thrower.obj.
-    bool good() const;
+    /// True if the mesh has every property required.
+    bool good(const MeshBounds& bounds) const;
 };
 
 /// Inspects a mesh. `model` is a fine triangulation of the surface that it approximates.

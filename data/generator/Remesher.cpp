@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace mannequin {
@@ -33,7 +34,8 @@ auto listed(const Range& range) {
 
 Remesher::Remesher(const ImplicitBody& body, const DetailMap& detail, SkinMesh& mesh)
     : _body(body), _detail(detail), _mesh(mesh),
-      _normal(mesh.add_property_map<Vertex, glm::dvec3>("v:implicit normal").first) {
+      _normal(mesh.add_property_map<Vertex, glm::dvec3>("v:implicit normal").first),
+      _curve(mesh.add_property_map<Vertex, std::size_t>("v:curve", 0).first) {
     for (const Vertex v : _mesh.vertices()) _normal[v] = _body.normal(at(v));
 }
 
@@ -73,6 +75,70 @@ void Remesher::settle(Vertex v, const glm::dvec3& point) {
     const glm::dvec3 skin = _body.projected(point);
     _mesh.point(v) = toCgal(skin);
     _normal[v] = _body.normal(skin);
+}
+
+void Remesher::settleOn(const SkinCurve& curve, Vertex v, glm::dvec3 point) {
+    constexpr double kStep = 1e-4;
+    for (int i = 0; i < 6; ++i) { // alternates between the curve's side and the skin
+        const glm::dvec3 normal = _body.normal(point);
+        glm::dvec3 slope;
+        for (int k = 0; k < 3; ++k) {
+            glm::dvec3 step(0);
+            step[k] = kStep;
+            slope[k] = (curve.side(point + step) - curve.side(point - step)) / (2 * kStep);
+        }
+        slope -= normal * glm::dot(slope, normal);
+        point -= slope * (curve.side(point) / std::max(glm::dot(slope, slope), 0.01));
+        point = _body.projected(point);
+    }
+    settle(v, point);
+}
+
+bool Remesher::onSameCurve(Vertex a, Vertex b) const {
+    return _curve[a] != 0 && _curve[a] == _curve[b];
+}
+
+void Remesher::follow(const SkinCurve& curve) {
+    _curves.push_back(curve);
+    for (const Edge e : listed(_mesh.edges())) {
+        const Halfedge h = _mesh.halfedge(e);
+        Vertex near = _mesh.source(h), far = _mesh.target(h);
+        if (!curve.applies(at(near)) || !curve.applies(at(far))) continue;
+        if (_curve[near] == _curves.size() || _curve[far] == _curves.size()) continue;
+        const double a = curve.side(at(near)), b = curve.side(at(far));
+        if (a * b >= 0) continue;
+        if (std::abs(b) < std::abs(a)) std::swap(near, far);
+        if (_curve[near] != 0) std::swap(near, far);
+        if (_curve[near] != 0) continue;
+        settleOn(curve, near, at(near));
+        _curve[near] = _curves.size();
+    }
+    collapseSlivers();
+    _mesh.collect_garbage();
+}
+
+/// Removes vertices that a curve came close to.
+void Remesher::collapseSlivers() {
+    constexpr double kShort = 0.6; // of the wanted length
+    for (const Edge e : listed(_mesh.edges())) {
+        if (_mesh.is_removed(e)) continue;
+        const Halfedge h = _mesh.halfedge(e);
+        const glm::dvec3 a = at(_mesh.source(h)), b = at(_mesh.target(h));
+        if (glm::distance(a, b) > kShort * wanted((a + b) / 2.0)) continue;
+        for (const Halfedge way : {h, _mesh.opposite(h)}) {
+            const Vertex gone = _mesh.source(way), kept = _mesh.target(way);
+            if (_curve[kept] == 0 || (_curve[gone] != 0 && _curve[gone] != _curve[kept])) continue;
+            if (!mayCollapse(way)) continue;
+            const Kernel::Point_3 place = _mesh.point(kept);
+            const glm::dvec3 normal = _normal[kept];
+            const std::size_t curve = _curve[kept];
+            const Vertex left = CGAL::Euler::collapse_edge(e, _mesh);
+            _mesh.point(left) = place;
+            _normal[left] = normal;
+            _curve[left] = curve;
+            break;
+        }
+    }
 }
 
 bool Remesher::mustSplit(double length, const glm::dvec3& middle) const {
@@ -193,6 +259,7 @@ void Remesher::flipForAngle() {
         const Vertex c = _mesh.target(_mesh.next(h)), d = _mesh.target(_mesh.next(o));
         const double before = std::min(smallestAngle(a, b, c), smallestAngle(b, a, d));
         const double after = std::min(smallestAngle(c, d, b), smallestAngle(d, c, a));
+        if (onSameCurve(a, b) || onSameCurve(c, d)) continue;
         if (after > before + 1e-3 && mayFlip(e)) CGAL::Euler::flip_edge(h, _mesh);
     }
 }
@@ -222,7 +289,10 @@ void Remesher::relax() {
         glm::dvec3 move = sum / weights - place;
         move -= _normal[v] * glm::dot(move, _normal[v]);
         const glm::dvec3 normal = _normal[v];
-        settle(v, place + move);
+        if (_curve[v] == 0)
+            settle(v, place + move);
+        else
+            settleOn(_curves[_curve[v] - 1], v, place + move);
         if (!maySit(v)) {
             _mesh.point(v) = toCgal(place);
             _normal[v] = normal;

@@ -5,7 +5,18 @@
 #include "ImplicitBody.h"
 #include "SkinMesh.h"
 
+#include <cstddef>
+#include <functional>
+#include <vector>
+
 namespace mannequin {
+
+/// A curve on the skin, where `side` changes its sign; `applies` tells which part of the skin it
+/// crosses.
+struct SkinCurve {
+    std::function<double(const glm::dvec3&)> side;
+    std::function<bool(const glm::dvec3&)> applies;
+};
 
 /// Remeshes the skin in place to near-equilateral triangles of varying target edge length.
 ///
@@ -20,6 +31,10 @@ public:
     double expectedVertices(double scale) const;
 
     void run(double scale, int rounds);
+
+    /// Moves vertices near a curve onto it, so that edges follow it. From then on the vertices
+    /// slide along the curve only. Call it after run().
+    void follow(const SkinCurve& curve);
 
     /// Increases the smallest angles without changing the number of vertices.
     void polish(int rounds);
@@ -38,6 +53,9 @@ private:
     double wanted(const glm::dvec3& point) const { return _detail.edgeLength(point) * _scale; }
     glm::dvec3 at(Vertex v) const { return toGlm(_mesh.point(v)); }
     void settle(Vertex v, const glm::dvec3& point); ///< moves `v` to the skin near `point`
+    void settleOn(const SkinCurve& curve, Vertex v, glm::dvec3 point);
+    void collapseSlivers();
+    bool onSameCurve(Vertex a, Vertex b) const;
     bool facesOutward(Vertex a, Vertex b, Vertex c) const;
     glm::dvec3 faceNormal(Halfedge h) const;
     /// Moves a point outward to the skin of a cut-off tip, where the closest skin is the side.
@@ -53,6 +71,8 @@ private:
     const DetailMap& _detail;
     SkinMesh& _mesh;
     SkinMesh::Property_map<Vertex, glm::dvec3> _normal;
+    SkinMesh::Property_map<Vertex, std::size_t> _curve; ///< 1 + index of a vertex's curve, or 0
+    std::vector<SkinCurve> _curves;
     double _scale = 1;
 };
 

@@ -67,6 +67,14 @@ ArmAngles armAngles(const ArmKeys& keys, double time) {
 }
 
 void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles, Pose& pose) {
+    const ArmAxes axes = armAxes(side, angles.abduction, angles.horizontal);
+    const double external = radians(angles.external);
+    poseArm(skeleton, side, angles,
+            {axes.upper, std::cos(external) * axes.zero + std::sin(external) * axes.right}, pose);
+}
+
+void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles,
+             const ArmDirections& directions, Pose& pose) {
     const RestArm rest(skeleton, side);
     const double s = sign(side);
     const auto local = [&](const std::string& name) -> glm::dquat& {
@@ -77,10 +85,8 @@ void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles, Pose&
                                       turn(-angles.tilt, {1, 0, 0});
 
     const WorldPose world = worldPose(skeleton, pose);
-    const ArmAxes axes = armAxes(side, angles.abduction, angles.horizontal);
-    const double external = radians(angles.external);
-    const glm::dvec3 bend = std::cos(external) * axes.zero + std::sin(external) * axes.right;
-    const glm::dmat3 target = trunkFrame(skeleton, world) * frameOf(axes.upper, bend);
+    const glm::dmat3 target =
+        trunkFrame(skeleton, world) * frameOf(directions.upper, directions.bend);
     const glm::dmat3 fromRest = target * glm::transpose(frameOf(rest.upper, rest.fore));
     const glm::dquat girdle = world.rotation[skeleton.index(rest.prefix + "Shoulder")];
     local(rest.prefix + "Arm") =

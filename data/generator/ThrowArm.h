@@ -29,11 +29,22 @@ struct ArmAngles {
     double thumb = 0;       ///< towards the palm
 };
 
+/// Directions of an arm in the trunk's frame (left, up, forward): along the upper arm, and the one
+/// in which the elbow flexes.
+struct ArmDirections {
+    glm::dvec3 upper, bend;
+};
+
 ArmAngles armAngles(const ArmKeys& keys, double time);
 
 /// Sets the rotations of one arm, from the girdle to the fingers.
 /// \pre the trunk is posed
 void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles, Pose& pose);
+
+/// The same, with the upper arm in given directions in place of the shoulder's angles.
+/// \pre the trunk is posed
+void poseArm(const Skeleton& skeleton, Side side, const ArmAngles& angles,
+             const ArmDirections& directions, Pose& pose);
 
 /// Measures abduction, horizontal adduction, external rotation and elbow flexion from the
 /// positions of the joints; the other angles are 0. The elbow is negative if it bends backward.

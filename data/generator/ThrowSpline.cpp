@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ThrowSpline.h"
 
-#include "ThrowTiming.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -26,12 +24,12 @@ double monotoneSlope(const Key& a, const Key& b, const Key& c) {
 
 } // namespace
 
-Channel::Channel(double softness, std::vector<Key> keys) : softness_(softness) {
+Channel::Channel(double softness, std::vector<Key> keys, double period)
+    : softness_(softness), period_(period) {
     if (keys.empty()) throw std::invalid_argument("a channel needs a key");
     const auto unordered = [](const Key& a, const Key& b) { return b.time <= a.time; };
     if (std::adjacent_find(keys.begin(), keys.end(), unordered) != keys.end())
         throw std::invalid_argument("a channel's keys need rising times");
-    const double period = loopSeconds();
     if (keys.front().time < 0 || keys.back().time >= period)
         throw std::invalid_argument("a channel's keys must lie within one loop");
     for (int cycle = -1; cycle <= 1; ++cycle)
@@ -57,8 +55,7 @@ double Channel::cubicAt(double time) const {
 }
 
 double Channel::at(double time) const {
-    const double period = loopSeconds();
-    const double t = time - period * std::floor(time / period);
+    const double t = time - period_ * std::floor(time / period_);
     if (softness_ <= 0) return cubicAt(t);
     constexpr int kSide = 24;
     double sum = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ThrowTiming.h"
+
 #include <vector>
 
 namespace mannequin {
@@ -22,8 +24,8 @@ public:
     Channel() = default;
 
     /// \param softness half-width of the smoothing kernel in seconds; 0 disables smoothing
-    /// \param keys in order of time, within [0, loopSeconds()); the curve repeats with that period
-    Channel(double softness, std::vector<Key> keys);
+    /// \param keys in order of time, within [0, period); the curve repeats with that period
+    Channel(double softness, std::vector<Key> keys, double period = loopSeconds());
 
     double at(double time) const;
 
@@ -31,6 +33,7 @@ private:
     double cubicAt(double time) const;
 
     double softness_ = 0;
+    double period_ = 1;
     std::vector<Key> keys_; ///< one period, plus one key at each end
     std::vector<double> slopes_;
 };

@@ -25,6 +25,13 @@ void share(const Skeleton& skeleton, const Share (&shares)[N], const glm::dquat&
 
 } // namespace
 
+void poseTrunk(const Skeleton& skeleton, const TrunkRotations& rotations, Pose& pose) {
+    const auto& [pelvis, thorax, head] = rotations;
+    pose.local[skeleton.index("Hips")] = pelvis;
+    share(skeleton, kSpine, glm::inverse(pelvis) * thorax, pose);
+    share(skeleton, kNeck, glm::inverse(thorax) * head, pose);
+}
+
 void poseTrunk(const Skeleton& skeleton, const BodyKeys& keys, double time, Pose& pose) {
     pose.root = {keys.x.at(time), keys.y.at(time), keys.z.at(time)};
     const glm::dquat pelvis =
@@ -34,9 +41,7 @@ void poseTrunk(const Skeleton& skeleton, const BodyKeys& keys, double time, Pose
     const glm::dquat head = turn(keys.headYaw.at(time), {0, 1, 0}) *
                             turn(keys.headNod.at(time), {1, 0, 0}) *
                             turn(keys.headRoll.at(time), {0, 0, 1});
-    pose.local[skeleton.index("Hips")] = pelvis;
-    share(skeleton, kSpine, glm::inverse(pelvis) * thorax, pose);
-    share(skeleton, kNeck, glm::inverse(thorax) * head, pose);
+    poseTrunk(skeleton, {pelvis, thorax, head}, pose);
 }
 
 glm::dmat3 trunkFrame(const Skeleton& skeleton, const WorldPose& world) {

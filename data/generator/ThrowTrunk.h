@@ -6,10 +6,16 @@
 
 namespace mannequin {
 
-/// Sets the rotations from the pelvis to the head at `time`, and the keyed root position.
-///
-/// The keys are the orientations of pelvis, thorax and head in the world. The lumbar joints share
-/// the rotation between pelvis and thorax, the neck joints that between thorax and head.
+/// Orientations in the world.
+struct TrunkRotations {
+    glm::dquat pelvis, thorax, head;
+};
+
+/// Sets the rotations from the pelvis to the head. The lumbar joints share the rotation between
+/// pelvis and thorax, the neck joints that between thorax and head.
+void poseTrunk(const Skeleton& skeleton, const TrunkRotations& rotations, Pose& pose);
+
+/// Sets the keyed rotations from the pelvis to the head at `time`, and the keyed root position.
 void poseTrunk(const Skeleton& skeleton, const BodyKeys& keys, double time, Pose& pose);
 
 /// The frame of the shoulder's angles; its columns are left, up and forward. Up points from the
