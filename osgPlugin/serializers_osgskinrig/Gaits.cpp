@@ -125,7 +125,7 @@ bool checkSet(const Gaits& gaits) {
 }
 
 /// Number of joints, and of each: parent, name, centre (doubles); the clips and gaits; of each leg
-/// its joints and ball; the lowest joint of the upper body; the matrix; the direction.
+/// its joints and sole; the lowest joint of the upper body; the matrix; the direction.
 bool writeSet(osgDB::OutputStream& os, const Gaits& gaits) {
     const Gaits::Set& set = gaits.get();
     BlockWriter out;
@@ -144,7 +144,8 @@ bool writeSet(osgDB::OutputStream& os, const Gaits& gaits) {
         out.put(leg.hip);
         out.put(leg.knee);
         out.put(leg.ankle);
-        out.putVector(leg.ball);
+        out.put(leg.toe);
+        for (const glm::dvec3& point : {leg.heel, leg.ball, leg.tip}) out.putVector(point);
     }
     out.put(set.upperBody);
     for (int i = 0; i < 16; ++i) out.put(set.toWalker.ptr()[i]);
@@ -172,7 +173,8 @@ Gaits::Set unpackSet(const std::vector<std::uint32_t>& words) {
         leg.hip = in.word();
         leg.knee = in.word();
         leg.ankle = in.word();
-        leg.ball = in.longVector();
+        leg.toe = in.word();
+        for (glm::dvec3* point : {&leg.heel, &leg.ball, &leg.tip}) *point = in.longVector();
     }
     set.upperBody = in.word();
     for (int i = 0; i < 16; ++i) set.toWalker.ptr()[i] = in.longReal();

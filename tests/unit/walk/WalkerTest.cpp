@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace {
 
@@ -42,6 +43,34 @@ TEST_P(WalkerAtRate, FeetStayOnACurve) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Walker, WalkerAtRate, testing::Values(20.0, 60.0, 100.0));
+
+TEST_P(WalkerAtRate, FeetRollOverTheirTips) {
+    walking::GaitOf gait = walking::walk();
+    gait.roll = 0.6;
+    Walk walk(osgSkin::makeWalker(
+        *walking::makeFigure({walking::idleClip(), walking::gaitClip(gait)}), {}));
+    const osgSkin::RestSkeleton rig = walking::figureRig();
+    const double dt = 1.0 / GetParam();
+    double slide = 0.0, highest = 0.0;
+    walking::Vertices before;
+    for (double t = 0.0; t < 6.0; t += dt) {
+        walk.show({1.4 * t, 0, 0}, 0.0, dt);
+        const walking::Vertices now = walking::verticesOf(*walk.transform);
+        for (const char* side : {"Left", "Right"}) {
+            const std::size_t ball = 3 * walking::jointOf(rig, side + std::string("Foot"));
+            const std::size_t tip = 3 * walking::jointOf(rig, side + std::string("ToeBase")) + 2;
+            highest = std::max(highest, now[ball].z() - now[tip].z());
+            for (const std::size_t point : {ball, tip}) {
+                ASSERT_GT(now[point].z(), -0.005) << t;
+                if (before.empty() || now[point].z() > 0.004 || before[point].z() > 0.004) continue;
+                slide += 0.5 * std::abs(now[point].x() - before[point].x());
+            }
+        }
+        before = now;
+    }
+    EXPECT_GT(highest, 0.03);
+    EXPECT_LT(slide / (1.4 * 6.0), 0.02);
+}
 
 TEST(Walker, StandsUntilItIsMoved) {
     Walk walk;

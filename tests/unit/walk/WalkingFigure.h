@@ -27,6 +27,7 @@
 namespace walking {
 
 constexpr double kThigh = 0.43, kShin = 0.4, kAnkle = 0.07; ///< m
+constexpr double kToe = 0.15, kTip = 0.23;                  ///< m in front of the ankle
 constexpr double kWalkStride = 1.5, kWalkTime = 1.0;        ///< m and seconds of a cycle
 constexpr double kRunStride = 2.4, kRunTime = 0.75;
 
@@ -49,7 +50,7 @@ inline osgSkin::RestSkeleton figureRig() {
             rig.add(name + "UpLeg", hips, glm::dvec3(0.1 * side, 0, kAnkle + kShin + kThigh));
         const int lower = rig.add(name + "Leg", upper, glm::dvec3(0.1 * side, 0, kAnkle + kShin));
         const int foot = rig.add(name + "Foot", lower, glm::dvec3(0.1 * side, 0, kAnkle));
-        rig.add(name + "ToeBase", foot, glm::dvec3(0.1 * side, -0.15, 0));
+        rig.add(name + "ToeBase", foot, glm::dvec3(0.1 * side, -kToe, 0));
     }
     return rig;
 }
@@ -66,6 +67,7 @@ struct GaitOf {
     bool isOnTheSpot = false;
     double cycles = 1.0;
     double direction = 0.0; ///< of the way, about Z from -Y
+    double roll = 0.0; ///< radians, by which a foot has rolled over its tip as it leaves the floor
 };
 
 /// A clip whose feet stand still on the floor while they carry, along -Y and then turned.
@@ -85,15 +87,22 @@ inline osgSkin::Clip gaitClip(const GaitOf& gait) {
             double phase = cycle + 0.5 * double(side) + 0.5 * gait.carries;
             phase -= std::floor(phase);
             double ahead = 0.0, lift = 0.0; // of the hips; above the floor
+            double roll = 0.0;
             if (phase < gait.carries) {
                 ahead = gait.stride * (0.5 * gait.carries - phase);
+                const double late = std::max(0.0, 2.5 * phase / gait.carries - 1.5);
+                roll = gait.roll * late * late;
             } else {
                 const double swing = (phase - gait.carries) / (1.0 - gait.carries);
                 ahead = gait.stride * (swing * swing * (3.0 - 2.0 * swing) -
                                        (1.0 - gait.carries) * swing - 0.5 * gait.carries);
                 lift = 0.12 * std::sin(glm::pi<double>() * swing);
+                roll = gait.roll * (1.0 - swing) * (1.0 - swing);
             }
-            const double y = -ahead, z = lift - (kShin + kThigh - gait.drop);
+            // The ankle rises behind the tip.
+            const double c = std::cos(roll) - 1.0, s = std::sin(roll);
+            const double y = -ahead + kTip * c - kAnkle * s;
+            const double z = lift + kTip * s + kAnkle * c - (kShin + kThigh - gait.drop);
             const double d = std::min(std::hypot(y, z), 0.9999 * (kThigh + kShin));
             const double straight = std::atan2(y, -z);
             const double upper = straight - std::acos((kThigh * kThigh + d * d - kShin * kShin) /
@@ -104,7 +113,7 @@ inline osgSkin::Clip gaitClip(const GaitOf& gait) {
             const glm::dvec3 x(1, 0, 0);
             pose[jointOf(rig, name + "UpLeg")] = glm::angleAxis(upper, x);
             pose[jointOf(rig, name + "Leg")] = glm::angleAxis(lower - upper, x);
-            pose[jointOf(rig, name + "Foot")] = glm::angleAxis(-lower, x);
+            pose[jointOf(rig, name + "Foot")] = glm::angleAxis(roll - lower, x);
             pose[jointOf(rig, name + "Arm")] = glm::angleAxis(ahead, x);
         }
         pose[0] = turn;
@@ -151,7 +160,7 @@ inline osgSkin::Clip waveClip() {
 }
 
 /// A character with a skin of one triangle a joint, each of which moves with its joint alone; a
-/// foot's has the ball of the foot on the floor as its first vertex.
+/// foot's has the ball of the foot on the floor as its first vertex, a toe's the tip as its last.
 inline osg::ref_ptr<osg::Group> makeFigure(const std::vector<osgSkin::Clip>& clips) {
     const osgSkin::RestSkeleton rig = figureRig();
     osgSkin::Binding binding;
@@ -164,8 +173,9 @@ inline osg::ref_ptr<osg::Group> makeFigure(const std::vector<osgSkin::Clip>& cli
             {rig.joints[j].name, rig.joints[j].parent, rig.joints[j].centre, up, up});
         const bool isFoot = rig.joints[j].name.find("Foot") != std::string::npos;
         const glm::dvec3 first = isFoot ? rig.joints[j + 1].centre : rig.joints[j].centre;
-        for (const glm::dvec3& corner :
-             {glm::dvec3(0), glm::dvec3(0.05, 0, 0.02), glm::dvec3(0, 0.05, 0.02)}) {
+        const bool isToe = rig.joints[j].name.find("Toe") != std::string::npos;
+        const glm::dvec3 last = isToe ? glm::dvec3(0, kToe - kTip, 0) : glm::dvec3(0, 0.05, 0.02);
+        for (const glm::dvec3& corner : {glm::dvec3(0), glm::dvec3(0.05, 0, 0.02), last}) {
             positions.emplace_back(first + corner);
             normals.emplace_back(0, 0, 1);
             source.push_back(static_cast<std::uint32_t>(source.size()));

@@ -71,8 +71,11 @@ void Gaits::set(const Set& set) {
     if (set.upperBody >= joints.size()) failGaits("there is no joint of the upper body");
     for (const Leg& leg : set.legs)
         if (!isBelow(joints, leg.knee, leg.hip) || !isBelow(joints, leg.ankle, leg.knee) ||
-            !std::isfinite(leg.ball.x + leg.ball.y + leg.ball.z))
+            (leg.toe != leg.ankle && !isBelow(joints, leg.toe, leg.ankle)))
             failGaits("the joints of a leg are not below each other");
+        else if (const glm::dvec3 sole = leg.heel + leg.ball + leg.tip;
+                 !std::isfinite(sole.x + sole.y + sole.z))
+            failGaits("a sole is not finite");
     if (!isEven(set.toWalker) || !std::isfinite(set.facing))
         failGaits("the way from rest space is not a rotation with an even scale and a shift");
     _set = set;

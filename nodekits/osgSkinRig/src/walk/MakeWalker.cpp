@@ -14,6 +14,7 @@
 #include <osgSkinRig/ReadSkeleton>
 
 #include <osg/ComputeBoundsVisitor>
+#include <osg/Geometry>
 #include <osg/Math>
 #include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
@@ -30,6 +31,9 @@ namespace {
     throw Error("walker: " + what);
 }
 
+constexpr double kFootLength = 0.35; ///< leg lengths from the ankle to the end of a foot
+constexpr double kSole = 0.04;       ///< leg lengths above the floor, of a sole's vertices
+
 class FindSkeleton : public osg::NodeVisitor {
 public:
     FindSkeleton() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -38,6 +42,30 @@ public:
         traverse(node);
     }
     osg::ref_ptr<osgAnimation::Skeleton> skeleton;
+};
+
+/// The vertices of a character in its rest pose.
+class FindVertices : public osg::NodeVisitor {
+public:
+    FindVertices() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void in(osg::Node& node, const osg::Matrixd& toWalker) {
+        _toWalker = toWalker;
+        node.accept(*this);
+    }
+    void apply(osg::Drawable& drawable) override {
+        const auto* skin = dynamic_cast<const DeformableSkin*>(&drawable);
+        const osg::Geometry* geometry = skin ? skin->getRestGeometry() : drawable.asGeometry();
+        const auto* array =
+            geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
+        if (!array) return;
+        const osg::Matrixd toWalker = osg::computeLocalToWorld(getNodePath()) * _toWalker;
+        for (const osg::Vec3& vertex : *array) vertices.push_back(osg::Vec3d(vertex) * toWalker);
+    }
+    std::vector<osg::Vec3d> vertices; ///< walker space
+
+private:
+    osg::Matrixd _toWalker;
 };
 
 /// A character's clips and the figure that they move.
@@ -54,6 +82,7 @@ public:
     osg::ref_ptr<Walker> make(WalkerReport& report) {
         findClips(report);
         Gaits::Set set;
+        findSoles();
         set.legs = _body.legs;
         set.facing = facing();
         const double floor = findStanding(set, report);
@@ -94,6 +123,7 @@ private:
     }
 
     void findBody();
+    void findSoles();
     void findClips(WalkerReport& report);
     std::string named(const std::string& asked, const std::vector<std::string>& words) const;
     double findStanding(Gaits::Set& set, const WalkerReport& report);
@@ -140,10 +170,9 @@ void WalkerMaker::findBody() {
     const std::array<std::string, 2> sides = {"Left", "Right"};
     for (std::size_t side = 0; side < sides.size(); ++side) {
         Gaits::Leg& leg = _body.legs[side];
-        leg = {jointOf(sides[side] + "UpperLeg"),
-               jointOf(sides[side] + "LowerLeg"),
-               jointOf(sides[side] + "Foot"),
-               {}};
+        leg.hip = jointOf(sides[side] + "UpperLeg");
+        leg.knee = jointOf(sides[side] + "LowerLeg");
+        leg.ankle = jointOf(sides[side] + "Foot");
         const osg::Vec3d ankle = placeOf(leg.ankle);
         const double length =
             (placeOf(leg.knee) - placeOf(leg.hip)).length() + (ankle - placeOf(leg.knee)).length();
@@ -152,10 +181,56 @@ void WalkerMaker::findBody() {
         const int toe = _roles.joint(sides[side] + "Toe");
         const int found =
             toe < 0 ? -1 : _clip->find(_skeleton.joints[static_cast<std::size_t>(toe)].name);
+        int above = found;
+        while (above > static_cast<int>(leg.ankle))
+            above = _clip->joints()[static_cast<std::size_t>(above)].parent;
+        leg.toe =
+            above == static_cast<int>(leg.ankle) ? static_cast<std::size_t>(found) : leg.ankle;
         const osg::Vec3d ball = found >= 0 ? placeOf(static_cast<std::size_t>(found))
                                            : ankle + _body.forward * (0.2 * length) -
                                                  osg::Vec3d(0.0, 0.0, 0.06 * length);
         leg.ball = toGlm(ball * osg::Matrixd::inverse(toWalker));
+    }
+}
+
+/// Where the soles of the rest pose begin and end.
+void WalkerMaker::findSoles() {
+    const osg::Matrixd toRest = osg::Matrixd::inverse(_character->toWorld());
+    FindVertices find;
+    for (const ClipCharacter::Skin& skin : _character->skins())
+        find.in(*skin.skin, skin.toWorld * toRest * _body.toWalker);
+    for (const ClipCharacter::Rigid& rigid : _character->rigids())
+        for (const osg::ref_ptr<osg::Node>& part : rigid.parts) find.in(*part, _body.toWalker);
+    std::array<osg::Vec3d, 2> ankles, balls;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Gaits::Leg& leg = _body.legs[side];
+        ankles[side] = toOsg(_clip->joints()[leg.ankle].centre) * _body.toWalker;
+        balls[side] = toOsg(leg.ball) * _body.toWalker;
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        std::vector<osg::Vec3d> foot;
+        double floor = balls[side].z();
+        for (const osg::Vec3d& vertex : find.vertices) {
+            const double away = flat(vertex - ankles[side]).length();
+            if (vertex.z() > ankles[side].z() || away > kFootLength * _body.leg ||
+                away > flat(vertex - ankles[1 - side]).length())
+                continue;
+            foot.push_back(vertex);
+            floor = std::min(floor, vertex.z());
+        }
+        double rear = balls[side] * _body.forward, front = rear;
+        for (const osg::Vec3d& vertex : foot) {
+            if (vertex.z() > floor + kSole * _body.leg) continue;
+            rear = std::min(rear, vertex * _body.forward);
+            front = std::max(front, vertex * _body.forward);
+        }
+        const auto onFloor = [&](const osg::Vec3d& beside, double ahead) {
+            osg::Vec3d place = beside + _body.forward * (ahead - beside * _body.forward);
+            place.z() = floor;
+            return toGlm(place * osg::Matrixd::inverse(_body.toWalker));
+        };
+        _body.legs[side].heel = onFloor(ankles[side], rear);
+        _body.legs[side].tip = onFloor(balls[side], front);
     }
 }
 

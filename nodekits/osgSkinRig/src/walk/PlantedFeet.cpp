@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kStepTime = 0.35;  ///< of a step on the spot
 constexpr double kStepLift = 0.06;  ///< leg lengths, of a step on the spot
+constexpr double kClearance = 0.02; ///< leg lengths, of a sole above the floor in mid-swing
 constexpr double kMaxOffset = 0.06; ///< leg lengths by which a standing foot may be off its place
 constexpr double kMaxTurn = 0.5;    ///< the same, radians
 constexpr double kMaxReach = 0.5;   ///< leg lengths by which a planted foot may be off its clip's
@@ -33,11 +34,19 @@ double wrapped(double angle) {
 
 } // namespace
 
+/// Makes a point of a foot's sole the one about which it turns and rolls.
+void WalkPlayer::rollOnto(Foot& foot, std::size_t side, SolePoint point) {
+    const osg::Vec3d before = soleOf(side, foot.pivot), now = soleOf(side, point);
+    foot.offset += before + osg::Quat(foot.turn, osg::Vec3d(0, 0, 1)) * (now - before) - now;
+    foot.pivot = point;
+    foot.spot = (now + foot.offset) * _place;
+}
+
 /// Plants a foot where it is.
 void WalkPlayer::plant(Foot& foot, std::size_t side) {
     foot.isPlanted = foot.isPlaced = true;
     foot.step = -1.0;
-    foot.ball = (ballOf(side) + foot.offset) * _place;
+    rollOnto(foot, side, pivotOf(side, foot.pivot));
     foot.heading =
         osg::Matrixd::transform3x3(osg::Quat(foot.turn, osg::Vec3d(0, 0, 1)) * _forward, _place);
 }
@@ -63,8 +72,8 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
             isStopping ? foot.isPlanted : !goes || gait.contacts[side].contains(_phase);
         if (carries && !foot.isPlanted) plant(foot, side);
         if (foot.isPlanted && foot.step < 0.0) {
-            const double down = towards(foot.offset.z(), _floor - soleOf(side), _leg * dt);
-            foot.offset = flat(foot.ball * toWalker - ballOf(side));
+            const double down = towards(foot.offset.z(), _floor - heightOf(side), _leg * dt);
+            foot.offset = flat(foot.spot * toWalker - soleOf(side, foot.pivot));
             foot.offset.z() = down;
             foot.turn = wrapped(angleOf(osg::Matrixd::transform3x3(foot.heading, toWalker)) -
                                 angleOf(_forward));
@@ -72,6 +81,8 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
             if (goes && off > most) { // dragged along
                 foot.offset *= most / off;
                 plant(foot, side);
+            } else if (const SolePoint next = pivotOf(side, foot.pivot); next != foot.pivot) {
+                rollOnto(foot, side, next);
             }
         }
         foot.isPlanted = carries;
@@ -90,13 +101,16 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
         if (isStopping) foot.lift = 4.0 * kStepLift * _leg * _walking * (1.0 - _walking);
         foot.offset *= 1.0 - std::min(1.0, share);
         foot.turn *= 1.0 - std::min(1.0, share);
+        const double clear = 4.0 * kClearance * _leg * _walking * toBegin * toEnd /
+                             ((toBegin + toEnd) * (toBegin + toEnd) + 1e-9);
+        foot.lift = std::max(foot.lift, _floor + clear - heightOf(side) - foot.offset.z());
     }
     if (goes)
         for (Foot& foot : _feet) foot.step = -1.0;
     else
         stepOnTheSpot(dt);
     for (std::size_t side = 0; side < _feet.size(); ++side) // nothing sinks into the floor
-        _feet[side].offset.z() = std::max(_feet[side].offset.z(), _floor - soleOf(side));
+        _feet[side].offset.z() = std::max(_feet[side].offset.z(), _floor - heightOf(side));
 }
 
 /// Brings standing feet to their place, one after the other.
@@ -179,9 +193,9 @@ void WalkPlayer::bendLegs() {
     bool isNeeded = false;
     for (std::size_t side = 0; side < _feet.size(); ++side) {
         const Foot& foot = _feet[side];
-        const osg::Vec3d ball = ballOf(side), ankle = jointOf(set.legs[side].ankle);
+        const osg::Vec3d pivot = soleOf(side, foot.pivot), ankle = jointOf(set.legs[side].ankle);
         targets[side] =
-            ball + osg::Quat(foot.turn, up) * (ankle - ball) + foot.offset + up * foot.lift;
+            pivot + osg::Quat(foot.turn, up) * (ankle - pivot) + foot.offset + up * foot.lift;
         isNeeded = isNeeded || (targets[side] - ankle).length() > 1e-9 * _leg || foot.turn != 0.0;
     }
     if (!isNeeded) return;

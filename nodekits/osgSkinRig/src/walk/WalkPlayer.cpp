@@ -20,6 +20,8 @@ constexpr double kSpeedTime = 0.15; ///< seconds in which the measured speed fol
 constexpr double kStopTime = 0.13;  ///< longer without a move is a stop; simulators have 20 Hz
 constexpr double kShortest = 0.45;  ///< the shortest steps, as shares of the clip's
 
+constexpr double kLevel = 0.003; ///< leg lengths by which a point of the sole is lower
+
 constexpr double kFadeOut = 0.2; ///< seconds, of a clip on the upper body
 
 } // namespace
@@ -34,13 +36,9 @@ WalkPlayer::WalkPlayer(const osg::ref_ptr<const Gaits>& gaits)
     for (std::size_t side = 0; side < set.legs.size(); ++side) {
         _leg += 0.5 * legLength(set.legs[side]);
         _height += 0.5 * jointOf(set.legs[side].hip).z();
-        // A third of the foot behind the ankle, on the floor on which the ball is.
-        const osg::Vec3d ball = ballOf(side), ankle = jointOf(set.legs[side].ankle);
-        osg::Vec3d heel = ankle - (ball - ankle) / 3.0;
-        heel.z() = ball.z();
-        _heels[side] = apply(inverse(_whole[set.legs[side].ankle]),
-                             toGlm(heel * osg::Matrixd::inverse(set.toWalker)));
-        _floor = std::min(_floor, ball.z());
+        _radius[side] = (toOsg(set.legs[side].ball) * set.toWalker).z() -
+                        (toOsg(set.legs[side].heel) * set.toWalker).z();
+        _floor = std::min(_floor, heightOf(side));
     }
 }
 
@@ -49,16 +47,30 @@ osg::Vec3d WalkPlayer::jointOf(std::size_t joint) const {
     return toOsg(apply(_whole[joint], joints[joint].centre)) * _gaits->get().toWalker;
 }
 
-osg::Vec3d WalkPlayer::ballOf(std::size_t side) const {
+/// Where the clips have a point of a sole.
+osg::Vec3d WalkPlayer::soleOf(std::size_t side, SolePoint point) const {
     const Gaits::Leg& leg = _gaits->get().legs[side];
-    return toOsg(apply(_whole[leg.ankle], leg.ball)) * _gaits->get().toWalker;
+    const glm::dvec3& place = point == Heel ? leg.heel : point == Ball ? leg.ball : leg.tip;
+    return toOsg(apply(_whole[point == Tip ? leg.toe : leg.ankle], place)) *
+               _gaits->get().toWalker -
+           osg::Vec3d(0.0, 0.0, point == Ball ? _radius[side] : 0.0);
 }
 
-/// The height of the lower one of ball and heel.
-double WalkPlayer::soleOf(std::size_t side) const {
-    const Gaits::Set& set = _gaits->get();
-    const osg::Vec3d heel = toOsg(apply(_whole[set.legs[side].ankle], _heels[side])) * set.toWalker;
-    return std::min(ballOf(side).z(), heel.z());
+double WalkPlayer::heightOf(std::size_t side) const {
+    return std::min({soleOf(side, Heel).z(), soleOf(side, Ball).z(), soleOf(side, Tip).z()});
+}
+
+/// The point on which a foot rolls: the one that it rolled on before, unless another is lower.
+WalkPlayer::SolePoint WalkPlayer::pivotOf(std::size_t side, SolePoint now) const {
+    SolePoint pivot = now;
+    double height = soleOf(side, now).z() - kLevel * _leg;
+    for (const SolePoint point : {Heel, Ball, Tip}) {
+        const double other = soleOf(side, point).z();
+        if (other >= height) continue;
+        height = other;
+        pivot = point;
+    }
+    return pivot;
 }
 
 double WalkPlayer::legLength(const Gaits::Leg& leg) const {

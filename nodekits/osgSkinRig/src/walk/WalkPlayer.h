@@ -62,16 +62,19 @@ protected:
 private:
     static constexpr double kGaitTime = 0.3; ///< seconds from standing to walking, and to running
 
+    enum SolePoint : std::size_t { Heel, Ball, Tip };
+
     struct Foot {
         bool isPlanted = true;
-        bool isPlaced = false; ///< `ball` and `heading` are known
-        osg::Vec3d ball;       ///< where it stands, in the space of the ground
-        osg::Vec3d heading;    ///< of the figure when it was planted, in the space of the ground
-        osg::Vec3d offset;     ///< from the clips' place to its own
-        double turn = 0.0;     ///< from the clips' direction to its own, about Z
-        double lift = 0.0;     ///< over the clips' height
-        double step = -1.0;    ///< share of a step on the spot; below 0: none
-        osg::Vec3d stepOffset; ///< at the step's start
+        bool isPlaced = false;  ///< `spot` and `heading` are known
+        SolePoint pivot = Ball; ///< about which it turns and rolls
+        osg::Vec3d spot;        ///< where the pivot stands, in the space of the ground
+        osg::Vec3d heading;     ///< of the figure when it was planted, in the space of the ground
+        osg::Vec3d offset;      ///< from the clips' place of the pivot to its own
+        double turn = 0.0;      ///< from the clips' direction to its own, about Z
+        double lift = 0.0;      ///< over the clips' height
+        double step = -1.0;     ///< share of a step on the spot; below 0: none
+        osg::Vec3d stepOffset;  ///< at the step's start
         double stepTurn = 0.0;
     };
 
@@ -82,11 +85,13 @@ private:
     void blendGaits();
     void moveFeet(double dt, double phaseStep);
     void plant(Foot& foot, std::size_t side);
+    void rollOnto(Foot& foot, std::size_t side, SolePoint point);
     void stepOnTheSpot(double dt);
     void bendLegs();
     void lowerHips(const std::array<osg::Vec3d, 2>& targets);
-    osg::Vec3d ballOf(std::size_t side) const;
-    double soleOf(std::size_t side) const;
+    osg::Vec3d soleOf(std::size_t side, SolePoint point) const;
+    double heightOf(std::size_t side) const;
+    SolePoint pivotOf(std::size_t side, SolePoint now) const;
     osg::Vec3d jointOf(std::size_t joint) const;
     void rotateJoint(std::size_t joint, const glm::dquat& world);
     void findLeg(std::size_t first, std::size_t last);
@@ -95,12 +100,12 @@ private:
     bool isStopped() const;
 
     const osg::ref_ptr<const Gaits> _gaits;
-    const osg::Vec3d _forward;        ///< in which it looks
-    const glm::dquat _toWalker;       ///< the rotation of the gaits' toWalker
-    double _unit = 1.0;               ///< walker units for one of rest space
-    std::array<glm::dvec3, 2> _heels; ///< behind the ankles on the floor, rest space
-    /// The height of the standing feet's balls.
+    const osg::Vec3d _forward;  ///< in which it looks
+    const glm::dquat _toWalker; ///< the rotation of the gaits' toWalker
+    double _unit = 1.0;         ///< walker units for one of rest space
+    /// The height of the standing soles.
     double _floor = std::numeric_limits<double>::infinity();
+    std::array<double, 2> _radius{};  ///< of the balls of the feet: their heights above the soles
     double _height = 0.0, _leg = 0.0; ///< of the hips above the floor; from hip to ankle
 
     osg::Matrixd _place;
