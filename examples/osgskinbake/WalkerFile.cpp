@@ -39,11 +39,13 @@ void tell(const osgSkin::WalkerReport& report) {
 } // namespace
 
 void writeWalker(osgSkin::Character& character, const Arguments& arguments) {
-    // Without it OSG writes nothing, and reports success.
-    if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper("osgSkinRig::Walker"))
-        throw osgSkin::Error(
-            "the serializers of walkers (osgdb_serializers_osgskinrig) are missing: "
-            "expected OSG_LIBRARY_PATH to name the folder of osgSkin's plug-ins");
+    // OSG leaves out what it has no serializer for, and reports success.
+    for (const char* name : {"osgSkinRig::Walker", "osgSkin::DeformableSkin"})
+        if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name))
+            throw osgSkin::Error(
+                "the serializers of walkers (osgdb_serializers_osgskinrig, "
+                "osgdb_serializers_osgskin) "
+                "are missing: expected OSG_LIBRARY_PATH to name the folder of osgSkin's plug-ins");
     osgSkin::WalkerReport report;
     const osg::ref_ptr<osgSkin::Walker> walker =
         osgSkin::makeWalker(*character.root, arguments.walkerOptions, &report);
