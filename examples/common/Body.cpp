@@ -3,6 +3,7 @@
 
 #include "Blending.h"
 #include "ProgressLine.h"
+#include "RatioWeights.h"
 
 #include <osgSkin/Deform>
 #include <osgSkin/Error>
@@ -31,28 +32,6 @@ void addNormalised(compare::SkinWeights& weights, VertexWeights vertex) {
     else
         for (compare::JointWeight& entry : vertex) entry.weight /= sum;
     weights.add(vertex);
-}
-
-/// Computes weights from bend ratios: a joint's weight is its ratio minus those of its children, so
-/// the sum of the weights in a subtree is the ratio. Negative weights, where two branches overlap
-/// (crotch), become 0.
-compare::SkinWeights weightsOf(const osgSkin::Binding& binding) {
-    compare::SkinWeights weights;
-    std::vector<double> left(binding.joints.size());
-    for (std::size_t v = 0; v < binding.vertexCount(); ++v) {
-        std::fill(left.begin(), left.end(), 0.0);
-        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
-            const osgSkin::Influence& influence = binding.influences[i];
-            left[influence.joint] += double(influence.bend);
-            const int parent = binding.joints[influence.joint].parent;
-            if (parent >= 0) left[static_cast<std::size_t>(parent)] -= double(influence.bend);
-        }
-        VertexWeights vertex;
-        for (std::uint32_t j = 0; j < left.size(); ++j)
-            if (left[j] > 1e-6) vertex.push_back({j, left[j]});
-        addNormalised(weights, vertex);
-    }
-    return weights;
 }
 
 compare::SkinWeights painted(const std::string& file, const osgSkin::Character& character) {
@@ -95,7 +74,8 @@ Body::Body(osgSkin::Character loaded, const std::string& weights)
     osgSkin::Binding plain = character.binding;
     plain.correctives = {};
     _plain = modelOf(plain);
-    _weights = weights.empty() ? weightsOf(character.binding) : painted(weights, character);
+    _weights =
+        weights.empty() ? compare::weightsOf(character.binding) : painted(weights, character);
 }
 
 std::size_t Body::find(const std::string& name) const {

@@ -3,6 +3,7 @@
 #include "CommandLine.h"
 #include "CylinderFigures.h"
 #include "FoldFigures.h"
+#include "PeopleFigures.h"
 #include "Report.h"
 #include "RiggerFigures.h"
 #include "Subject.h"
@@ -27,6 +28,9 @@ struct Options {
     std::string method = "smooth";
     bool noSweeps = false;
     std::string shapes;
+    std::string people;
+    std::vector<std::size_t> subjects{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    bool fittedJoints = false;
 };
 
 void define(example::CommandLine& line, Options& options) {
@@ -52,6 +56,14 @@ void define(example::CommandLine& line, Options& options) {
     line.add("--rigger", options.rigger, "only what a rigger looks at first");
     line.add("--elastic", options.skins.elastic,
              "a rigger's figures with elastic shapes, too; takes minutes a body");
+    const auto people = line.add(
+        "--people", options.people,
+        "only the distance from captured people: the folder of FAUST's scans with 5,000 vertices");
+    line.add("--subject", options.subjects, "a person, as often as wanted; default: all of 0 to 9")
+        .needs(people);
+    line.add("--fitted-joints", options.fittedJoints,
+             "people's joints where fitSkeleton() puts them, not where their bodies turn")
+        .needs(people);
     line.add("--cache", options.skins.cacheFolder, "a folder that keeps elastic shapes");
 }
 
@@ -111,7 +123,24 @@ void reportShapes(const Options& options) {
     }
 }
 
+void reportPeople(const Options& options) {
+    if (options.method == "weights")
+        throw std::runtime_error(
+            "--people: nobody has painted these bodies, expected --bind smooth "
+            "or paper");
+    const Ratios ratios = options.method == "paper" ? Ratios::AsPrinted : Ratios::Smooth;
+    std::vector<PersonFigures> people;
+    for (const std::size_t subject : options.subjects) {
+        const CapturedPerson person = readPerson(options.people, subject);
+        std::cerr << person.name << '\n';
+        people.push_back(
+            measurePerson(person, ratios, options.fittedJoints ? Joints::Fitted : Joints::Solved));
+    }
+    printTable(people, std::cout);
+}
+
 void run(const Options& options) {
+    if (!options.people.empty()) return reportPeople(options);
     if (!options.shapes.empty()) return reportShapes(options);
     nlohmann::ordered_json json = {{"bind", options.method}, {"bodies", nlohmann::json::array()}};
     if (options.rig.empty() && !options.rigger) {
