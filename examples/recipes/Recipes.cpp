@@ -15,7 +15,6 @@ using Scene = osg::ref_ptr<osg::Node>;
 
 // Each is in the file of its name.
 Scene attachSword(File);
-Scene blendClips(File);
 Scene castShadow(File);
 Scene chooseClip(File);
 Scene convertScene(File);
@@ -39,7 +38,6 @@ namespace {
 using osg::Vec3d;
 
 const example::View kFigure{Vec3d(-1.9, -4.6, 1.5), Vec3d(0, 0, 0.93)};
-const example::View kWide{Vec3d(-0.9, -5.6, 1.6), Vec3d(0, 0, 0.93)};
 
 osg::Matrixd onEarth() {
     osg::Matrixd place;
@@ -90,7 +88,6 @@ const std::vector<Recipe>& recipes() {
     static const std::vector<Recipe> all{
         {"loadAndPlay", loadAndPlay, "walker.skin", 0.25, kFigure},
         {"chooseClip", chooseClip, "walker.skin", 0.15, kFigure},
-        {"blendClips", blendClips, "walker.skin", 0.1, kWide},
         {"fadeClips", fadeClips, "walker.skin", 0.4, kFigure, Floor::Shadowed, false, {}, true},
         {"driveBone", driveBone, "walker.skin", 0.5, kFigure},
         {"lookAtTarget",

@@ -2,8 +2,6 @@
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinRig/ClipCharacter>
 
-#include <osg/MatrixTransform>
-
 namespace {
 
 /// Moves a figure along by the steps of its clips.
@@ -27,9 +25,12 @@ osg::ref_ptr<osg::Node> fadeClips(const std::string& file) {
     walk->player->setRoot(osgSkin::ClipPlayer::Root::ExtractedWithTurn);
     walk->toWorld = clips->toWorld();
     if (!character.motions.empty()) {
-        const std::string& spine = character.rest.joints[character.jointByRole("Spine")].name;
         walk->player->play({clips->clip(character.motions.front().name())}, 0.3);
-        walk->player->playOn(spine, {clips->clip(character.motions.back().name())}, 0.2);
+        osgSkin::ClipPlayer::Layer wave{clips->clip(character.motions.back().name())};
+        wave.joints = osgSkin::jointsBelowRole(*wave.clip, "Spine");
+        wave.weight = 0.0;
+        walk->player->setLayer(3, wave);
+        walk->player->fade(3, 1.0, 0.2, osgSkin::ClipPlayer::Easing::Smooth);
     }
     const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
     place->addChild(character.root);

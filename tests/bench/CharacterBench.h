@@ -38,6 +38,9 @@ enum class Larger {
 /// evaluates it at no vertices. `set-up %` is its share of the smaller skin's update.
 void setUpShare(benchmark::State& state, Kind kind, Larger larger);
 
+/// Adds the benchmarks of layers of clips, whose names begin with "layers".
+void addLayers();
+
 } // namespace bench
 
 #endif

@@ -398,6 +398,7 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark("frame, osgAnimation/20", bench::characters,
                                  bench::Player::OsgAnimation, bench::Kind::Turned)
         ->Unit(benchmark::kMicrosecond);
+    bench::addLayers();
     bench::addLoads();
     bench::addLoadedFrames();
     bench::RatioTable table;

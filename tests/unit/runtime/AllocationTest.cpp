@@ -4,6 +4,7 @@
 #include <osgSkin/DeformPool>
 #include <osgSkin/PoseBounds>
 #include <osgSkin/UpdateDeformableSkin>
+#include <osgSkinRig/ClipPlayer>
 
 #include "Tube.h"
 #include "Turns.h"
@@ -175,6 +176,43 @@ TEST(Allocation, NoneInAThousandFramesOfAPool) {
     for (std::size_t frame = 0; frame < 1000; ++frame) run(frame);
     EXPECT_EQ(allocations, before);
     EXPECT_TRUE(good);
+}
+
+TEST(Allocation, NoneInAThousandFramesOfClipLayers) {
+    const std::vector<osgSkin::SampledClip::Joint> joints{
+        {"root", -1, {0, 0, 0}}, {"middle", 0, {0, 2, 0}}, {"end", 1, {0, 4, 0}}};
+    std::vector<osgSkin::JointSample> samples(30);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i].rotation = glm::angleAxis(0.1 * double(i), glm::dvec3(1, 0, 0));
+    const auto clip = osgSkin::SampledClip::create("clip", joints, samples, 0.1);
+    const test::Tube tube;
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX,
+                                                static_cast<unsigned int>(tube.positions.size())));
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setSkin(geometry, tube.model());
+    const osg::ref_ptr<osgSkin::ClipPlayer> player = new osgSkin::ClipPlayer;
+    player->addSkin(skin);
+    player->setRoot(osgSkin::ClipPlayer::Root::ExtractedWithTurn);
+    for (std::size_t i = 0; i < 4; ++i)
+        player->setLayer(i, {clip, 0.1 * double(i), 1.0, true, 0.5, {"middle", "end"}, i % 2 == 1});
+    std::size_t calls = 0;
+    player->addEvent(clip, 0.5, [&calls](osgSkin::ClipPlayer&, std::size_t) { ++calls; });
+    const auto run = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            player->fade(1, i % 50 < 25 ? 1.0 : 0.0, 0.3);
+            player->setLayer(0, player->getLayer(0));
+            player->advance(0.017);
+            if (!player->pose()) return false;
+        }
+        return true;
+    };
+    EXPECT_TRUE(run(200));
+    const std::size_t before = allocations;
+    const bool good = run(1000);
+    EXPECT_EQ(allocations, before);
+    EXPECT_TRUE(good);
+    EXPECT_GT(calls, 50u);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "clips/BakedClip.h"
 #include "clips/ClipBones.h"
+#include "clips/ClipLayers.h"
 #include "clips/JointMaps.h"
 
 #include <osgSkin/GlmOsg>
@@ -14,15 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace osgSkin {
 namespace {
-
-double finite(double number) {
-    return std::isfinite(number) ? number : 0.0;
-}
 
 osg::Matrixd toMatrix(const JointMap& map) {
     osg::Matrixd result = osg::Matrixd::rotate(toOsg(map.rotation));
@@ -39,17 +35,8 @@ bool isActivated(const DeformableSkin& skin) {
     return false;
 }
 
-/// The same angle from -pi to pi.
-double wrapped(double angle) {
-    return std::remainder(angle, 2.0 * osg::PI);
-}
-
 int parentJoint(const SampledClip& clip, int joint) {
     return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
-}
-
-double perSecond(double fade) {
-    return fade > 0.0 ? 1.0 / fade : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
@@ -67,130 +54,107 @@ public:
     }
 };
 
-ClipPlayer::ClipPlayer() = default;
+ClipPlayer::ClipPlayer() : _layers(new ClipLayers) {}
 ClipPlayer::~ClipPlayer() = default;
 
 ClipPlayer::ClipPlayer(const ClipPlayer& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
-      _layers(other._layers), _weight(other._weight), _interpolated(other._interpolated),
-      _root(other._root), _up(other._up) {
+      _layers(new ClipLayers) {
+    for (std::size_t i = 0; i < kMaxLayers; ++i)
+        if (other.getLayer(i).clip) setLayer(i, other.getLayer(i));
+    setInterpolated(other.getInterpolated());
+    setRoot(other.getRoot(), other._layers->up());
     OSG_WARN << "osgSkin: a copy of a ClipPlayer poses nothing, expected ClipCharacter to make one"
              << std::endl;
 }
 
 void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
-    if (index >= _layers.size()) return;
-    _layers[index] = layer;
-    _layers[index].time = finite(layer.time);
-    _layers[index].speed = finite(layer.speed);
+    _layers->set(index, layer);
 }
 
-void ClipPlayer::setWeight(double weight) {
-    if (!std::isfinite(weight)) return;
-    _weight = std::clamp(weight, 0.0, 1.0);
-    _fade = 0.0;
+const ClipPlayer::Layer& ClipPlayer::getLayer(std::size_t index) const {
+    return _layers->get(index);
 }
 
-/// Changes what is played so that twists continue from the present pose.
-template <typename Change>
-void ClipPlayer::change(const Change& change) {
-    const bool continues = _posed && _layers[0].clip && knowsJoints();
-    change();
-    if (!continues) return;
-    findJoints();
-    for (std::size_t i = 0; i < _layers.size(); ++i) _posedTimes[i] = _layers[i].time;
+void ClipPlayer::seek(std::size_t index, double time) {
+    _layers->seek(index, time);
 }
 
-/// The present pose of both layers as a clip of one sample.
-osg::ref_ptr<const SampledClip> ClipPlayer::frozen() {
-    if (!knowsJoints()) findJoints();
-    const SampledClip& base = *_layers[_base].clip;
-    const osg::ref_ptr<SampledClip> result = new SampledClip;
-    result->_name = base.name();
-    result->_joints = base.joints();
-    result->_root = base.rootJoint();
-    sampleLayers(result->_samples);
-    return result;
+void ClipPlayer::setSpeed(std::size_t index, double speed) {
+    _layers->setSpeed(index, speed);
 }
 
-void ClipPlayer::play(const Layer& layer, double fade) {
-    if (!layer.clip) return;
-    change([&] {
-        const bool isFaded = _layers[0].clip && fade > 0.0;
-        if (isFaded && _layers[1].clip && _weight > 0.0)
-            _layers[0] = _weight < 1.0 ? Layer{frozen()} : _layers[1];
-        setLayer(isFaded ? 1 : 0, layer);
-        if (!isFaded) _layers[1] = {};
-        _weight = 0.0;
-        _fade = isFaded ? perSecond(fade) : 0.0;
-    });
+void ClipPlayer::fade(std::size_t index, double weight, double seconds, Easing easing) {
+    _layers->fade(index, weight, seconds, easing);
 }
 
-bool ClipPlayer::playOn(const std::string& joint, const Layer& layer, double fade) {
+void ClipPlayer::play(const Layer& layer, double fade, Easing easing) {
+    if (layer.clip) _layers->play(layer, fade, easing, posedJoints());
+}
+
+bool ClipPlayer::playOn(const std::string& joint, const Layer& layer, double fade, Easing easing) {
     if (!layer.clip || layer.clip->find(joint) < 0) return false;
-    change([&] {
-        _part.layer = layer;
-        _part.layer.time = finite(layer.time);
-        _part.layer.speed = finite(layer.speed);
-        _part.joint = joint;
-        _part.fade = perSecond(fade);
-        if (!(fade > 0.0)) _part.weight = 1.0;
-        _found[0] = nullptr;
-    });
+    Layer part = layer;
+    part.joints = jointsBelow(*layer.clip, joint);
+    _layers->playOn(part, fade, easing);
     return true;
 }
 
-void ClipPlayer::stopOn(double fade) {
-    _part.fade = -perSecond(fade);
-    if (!(fade > 0.0)) _part = {};
+void ClipPlayer::stopOn(double fade, Easing easing) {
+    _layers->stopOn(fade, easing);
 }
 
-void ClipPlayer::advanceFades(double seconds) {
-    const double passed = std::abs(seconds);
-    if (_fade > 0.0 && passed > 0.0) _weight = std::min(1.0, _weight + _fade * passed);
-    if (_fade > 0.0 && _weight == 1.0)
-        change([&] {
-            _layers[0] = _layers[1];
-            _layers[1] = {};
-            _weight = _fade = 0.0;
-        });
-    if (!_part.layer.clip) return;
-    _part.layer.time = finite(_part.layer.time + _part.layer.speed * seconds);
-    if (passed > 0.0) _part.weight = std::clamp(_part.weight + _part.fade * passed, 0.0, 1.0);
-    if (_part.fade < 0.0 && _part.weight == 0.0) _part = {};
+void ClipPlayer::addEvent(const SampledClip* clip, double time, const Event& event) {
+    _layers->addEvent(clip, time, event);
+}
+
+void ClipPlayer::removeEvents(const SampledClip* clip) {
+    _layers->removeEvents(clip);
+}
+
+void ClipPlayer::setInterpolated(bool interpolated) {
+    _layers->setInterpolated(interpolated);
+}
+
+bool ClipPlayer::getInterpolated() const {
+    return _layers->isInterpolated();
+}
+
+void ClipPlayer::setRoot(Root root) {
+    setRoot(root, _layers->up());
 }
 
 void ClipPlayer::setRoot(Root root, const osg::Vec3d& up) {
-    _root = root;
-    osg::Vec3d unit = up;
-    if (std::isfinite(unit.normalize()) && unit.valid()) _up = unit;
-    _motion = {};
+    _layers->setRoot(root, up);
+}
+
+ClipPlayer::Root ClipPlayer::getRoot() const {
+    return _layers->root();
 }
 
 osg::Vec3d ClipPlayer::takeRootMotion() {
-    const osg::Vec3d result = _root == Root::Extracted ? _motion.shift : osg::Vec3d();
-    _motion = {};
-    return result;
+    const osg::Vec3d shift = _layers->takeMotion().shift;
+    return getRoot() == Root::Extracted ? shift : osg::Vec3d();
 }
 
 osg::Matrixd ClipPlayer::takeRootMatrix(const osg::Matrixd& toWorld) {
-    osg::Matrixd result = osg::Matrixd::rotate(osg::Quat(_motion.angle, _up));
-    result.setTrans(_motion.shift);
-    _motion = {};
+    const ClipLayers::GroundMove move = _layers->takeMotion();
+    osg::Matrixd result = osg::Matrixd::rotate(osg::Quat(move.angle, _layers->up()));
+    result.setTrans(move.shift);
     return osg::Matrixd::inverse(toWorld) * result * toWorld;
 }
 
 void ClipPlayer::addSkin(DeformableSkin* skin) {
     if (!skin) return;
     _skins.push_back({skin, nullptr, {}, {}, false});
-    _found[0] = nullptr;
+    _found = nullptr;
 }
 
 void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& joint,
                           const osg::Matrixd& toParent) {
     if (!transform) return;
     _rigids.push_back({transform, joint, toParent, -1});
-    _found[0] = nullptr;
+    _found = nullptr;
 }
 
 void ClipPlayer::addBones(osgAnimation::Skeleton* skeleton) {
@@ -212,142 +176,23 @@ void ClipPlayer::addBones(osgAnimation::Skeleton* skeleton) {
         _bones.push_back({placed, bone->getName(), parent == indices.end() ? -1 : parent->second,
                           -1, osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace())});
     }
-    _found[0] = nullptr;
-}
-
-ClipPlayer::GroundMove ClipPlayer::then(const GroundMove& first, const GroundMove& next) const {
-    return {first.angle + next.angle, first.shift + osg::Quat(first.angle, _up) * next.shift};
-}
-
-ClipPlayer::GroundMove ClipPlayer::reversed(const GroundMove& move) const {
-    return {-move.angle, osg::Quat(-move.angle, _up) * -move.shift};
-}
-
-ClipPlayer::GroundMove ClipPlayer::power(GroundMove move, double times) const {
-    if (times < 0.0) return power(reversed(move), -times);
-    GroundMove result;
-    for (; times >= 1.0; times = std::floor(0.5 * times)) {
-        if (std::fmod(times, 2.0) == 1.0) result = then(result, move);
-        move = then(move, move);
-    }
-    return result;
-}
-
-double ClipPlayer::headingOf(const JointSample& root) const {
-    if (_root != Root::ExtractedWithTurn) return 0.0;
-    const glm::dquat& q = root.rotation; // its part about `up`, before which the rest bends
-    return 2.0 * std::atan2(q.x * _up.x() + q.y * _up.y() + q.z * _up.z(), q.w);
-}
-
-/// From the first sample to another, about the root's position in the first sample.
-ClipPlayer::GroundMove ClipPlayer::rootMove(const SampledClip& clip,
-                                            const JointSample& root) const {
-    const JointSample& first = clip.sample(0)[clip.rootJoint()];
-    return {headingOf(root) - headingOf(first),
-            alongGround(toOsg(root.translation - first.translation))};
-}
-
-/// The move from the first sample to a layer's time within its loop.
-///
-/// \param loops set to the number of loops before
-ClipPlayer::GroundMove ClipPlayer::rootAt(const Layer& layer, double& loops) const {
-    const SampledClip& clip = *layer.clip;
-    const SampledClip::Place at = clip.place(layer.time, layer.loop);
-    const auto rootOf = [&](std::size_t sample) { return clip.sample(sample)[clip.rootJoint()]; };
-    loops = 0.0;
-    if (layer.loop)
-        loops = std::round((layer.time / clip.step() - static_cast<double>(at.from) - at.share) /
-                           static_cast<double>(clip.sampleCount()));
-    if (at.from <= at.to)
-        return rootMove(clip, SampleBlend(at.share)(rootOf(at.from), rootOf(at.to)));
-    GroundMove step = seamStep(clip);
-    step.angle *= at.share;
-    step.shift *= at.share;
-    return then(rootMove(clip, rootOf(at.from)), step);
-}
-
-/// The step from the last sample back to the first: the mean of its neighbours.
-ClipPlayer::GroundMove ClipPlayer::seamStep(const SampledClip& clip) const {
-    const std::size_t last = clip.sampleCount() - 1;
-    if (last == 0) return {};
-    const auto moveAt = [&](std::size_t i) {
-        return rootMove(clip, clip.sample(i)[clip.rootJoint()]);
-    };
-    const GroundMove before = then(reversed(moveAt(last - 1)), moveAt(last)), after = moveAt(1);
-    return {0.5 * (wrapped(before.angle) + wrapped(after.angle)),
-            (before.shift + after.shift) * 0.5};
-}
-
-/// The move of a layer's root in a time that passes; advances the layer.
-ClipPlayer::GroundMove ClipPlayer::rootStep(Layer& layer, double seconds) const {
-    double before = 0.0, after = 0.0;
-    const GroundMove from = rootAt(layer, before);
-    layer.time = finite(layer.time + layer.speed * seconds);
-    GroundMove to = rootAt(layer, after);
-    if (before != after) {
-        const SampledClip& clip = *layer.clip;
-        const JointSample& last = clip.sample(clip.sampleCount() - 1)[clip.rootJoint()];
-        to = then(power(then(rootMove(clip, last), seamStep(clip)), after - before), to);
-    }
-    return then(reversed(from), to);
+    _found = nullptr;
 }
 
 void ClipPlayer::advance(double seconds) {
     if (!std::isfinite(seconds)) return;
-    const bool extracts = _root == Root::Extracted || _root == Root::ExtractedWithTurn;
-    GroundMove move;
-    osg::Vec3d pivot;
-    for (std::size_t i = 0; i < _layers.size(); ++i) {
-        Layer& layer = _layers[i];
-        if (!extracts || !layer.clip) {
-            layer.time = finite(layer.time + layer.speed * seconds);
-            continue;
-        }
-        const double share = i == 1 ? _weight : _layers[1].clip ? 1.0 - _weight : 1.0;
-        const GroundMove own = rootStep(layer, seconds);
-        move.angle += share * wrapped(own.angle);
-        move.shift += own.shift * share;
-        const std::size_t root = layer.clip->rootJoint();
-        pivot += alongGround(toOsg(layer.clip->joints()[root].centre +
-                                   layer.clip->sample(0)[root].translation)) *
-                 share;
-    }
-    advanceFades(seconds);
-    if (!extracts) return;
-    move.shift += pivot - osg::Quat(move.angle, _up) * pivot;
-    _motion = then(_motion, move);
+    _layers->advance(seconds);
+    _layers->callEvents(*this);
 }
 
-bool ClipPlayer::knowsJoints() const {
-    return _found[0].get() == _layers[0].clip.get() && _found[1].get() == _layers[1].clip.get() &&
-           _base == baseLayer() && std::all_of(_skins.begin(), _skins.end(), [](const Skin& skin) {
+bool ClipPlayer::knowsJoints(const SampledClip& clip) const {
+    return _found.get() == &clip && std::all_of(_skins.begin(), _skins.end(), [](const Skin& skin) {
                return skin.model.get() == skin.skin->getModel();
            });
 }
 
-void ClipPlayer::compareClips() {
-    _alike = true;
-    _covers = false;
-    if (!_layers[1].clip) return;
-    const std::vector<SampledClip::Joint>& own = _layers[0].clip->joints();
-    const std::vector<SampledClip::Joint>& others = _layers[1].clip->joints();
-    _alike = std::equal(others.begin(), others.end(), own.begin(), own.end(),
-                        [](const auto& a, const auto& b) { return a.name == b.name; });
-    _covers =
-        others.size() > own.size() && std::all_of(own.begin(), own.end(), [&](const auto& joint) {
-            return _layers[1].clip->find(joint.name) >= 0;
-        });
-}
-
-std::size_t ClipPlayer::baseLayer() const {
-    if (!_layers[1].clip || _weight == 0.0 || _alike) return 0;
-    return _weight == 1.0 || _covers ? 1 : 0;
-}
-
-void ClipPlayer::findJoints() {
-    compareClips();
-    _base = baseLayer();
-    const SampledClip& clip = *_layers[_base].clip;
+void ClipPlayer::findJoints(const SampledClip& clip) {
+    _found = &clip;
     _needsWhole = !_rigids.empty() || !_bones.empty();
     for (Skin& skin : _skins) {
         skin.model = skin.skin->getModel();
@@ -369,60 +214,6 @@ void ClipPlayer::findJoints() {
     }
     for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
     for (Bone& bone : _bones) bone.joint = clip.find(bone.name);
-    _part.joints.assign(clip.joints().size(), -1);
-    std::vector<bool> isBelow(clip.joints().size());
-    for (std::size_t j = 0; _part.layer.clip && j < isBelow.size(); ++j) {
-        const SampledClip::Joint& joint = clip.joints()[j];
-        isBelow[j] = joint.name == _part.joint ||
-                     (joint.parent >= 0 && isBelow[static_cast<std::size_t>(joint.parent)]);
-        if (isBelow[j]) _part.joints[j] = _part.layer.clip->find(joint.name);
-    }
-    _others.clear();
-    if (const SampledClip* other = _layers[1 - _base].clip.get())
-        for (const SampledClip::Joint& joint : clip.joints())
-            _others.push_back(other->find(joint.name));
-    for (std::size_t i = 0; i < _found.size(); ++i) _found[i] = _layers[i].clip.get();
-}
-
-/// The joints' transforms at a layer's time, without what the root does not move by.
-void ClipPlayer::sampleLayer(const Layer& layer, std::vector<JointSample>& joints) const {
-    joints.resize(layer.clip->joints().size());
-    SampledClip::Place at = layer.clip->place(layer.time, layer.loop);
-    if (!_interpolated) at.share = 0.0;
-    const JointSample* from = layer.clip->sample(at.from);
-    const JointSample* next = layer.clip->sample(at.to);
-    const SampleBlend between(at.share);
-    for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = between(from[j], next[j]);
-    if (_root == Root::Moving) return;
-    JointSample& root = joints[layer.clip->rootJoint()];
-    const GroundMove gone = rootMove(*layer.clip, root);
-    root.translation -= toGlm(gone.shift);
-    if (gone.angle != 0.0) root.rotation = glm::angleAxis(-gone.angle, toGlm(_up)) * root.rotation;
-}
-
-/// Both layers.
-void ClipPlayer::sampleLayers(std::vector<JointSample>& joints) const {
-    static thread_local std::vector<JointSample> others;
-    sampleLayer(_layers[_base], joints);
-    const double weight = _base == 0 ? _weight : 1.0 - _weight;
-    if (!_layers[1].clip || weight == 0.0) return;
-    sampleLayer(_layers[1 - _base], others);
-    const SampleBlend weighted(weight);
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        joints[j] =
-            weighted(joints[j],
-                     _others[j] < 0 ? JointSample() : others[static_cast<std::size_t>(_others[j])]);
-}
-
-void ClipPlayer::sampleJoints(std::vector<JointSample>& joints) const {
-    static thread_local std::vector<JointSample> part;
-    sampleLayers(joints);
-    if (_part.weight == 0.0) return;
-    sampleLayer(_part.layer, part);
-    const SampleBlend weighted(_part.weight);
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        if (_part.joints[j] >= 0)
-            joints[j] = weighted(joints[j], part[static_cast<std::size_t>(_part.joints[j])]);
 }
 
 void ClipPlayer::poseBones(const std::vector<JointMap>& whole) const {
@@ -477,14 +268,8 @@ bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
     return set(maps);
 }
 
-const ClipPlayer::Layer* ClipPlayer::layerAlone() const {
-    if (!_layers[1].clip || _weight == 0.0) return _layers.data();
-    return _weight == 1.0 ? &_layers[1] : nullptr;
-}
-
-const BakedClip* ClipPlayer::findBaked() const {
-    const Layer* layer = layerAlone();
-    if (_baked.empty() || !layer || _root != Root::Moving || _part.weight > 0.0) return nullptr;
+const BakedClip* ClipPlayer::findBaked(const Layer* layer) const {
+    if (_baked.empty() || !layer || getRoot() != Root::Moving || posedJoints()) return nullptr;
     const auto baked = std::find_if(_baked.begin(), _baked.end(),
                                     [&](const auto& b) { return b->clip == layer->clip; });
     if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
@@ -508,34 +293,28 @@ bool ClipPlayer::poseBaked(const BakedClip& baked, std::size_t sample) const {
     return good;
 }
 
-bool ClipPlayer::isContinued() const {
-    const auto isNear = [&](std::size_t i) {
-        return std::abs(_layers[i].time - _posedTimes[i]) <= kSeekSeconds;
-    };
-    return _posed && knowsJoints() && isNear(0) && (!_layers[1].clip || isNear(1));
-}
-
 bool ClipPlayer::pose() {
-    const bool good = poseAs(isContinued() ? Pose::Twist::Continued : Pose::Twist::Shortest);
-    _posed = good;
-    for (std::size_t i = 0; i < _layers.size(); ++i) _posedTimes[i] = _layers[i].time;
-    return good;
+    const bool isContinued = _posed && _layers->isContinued();
+    _posed = poseAs(isContinued ? Pose::Twist::Continued : Pose::Twist::Shortest);
+    _layers->markPosed();
+    return _posed;
 }
 
 bool ClipPlayer::poseAs(Pose::Twist twist) {
-    if (!_layers[0].clip) return false;
-    const BakedClip* baked = findBaked();
+    const SampledClip* clip = _layers->prepare();
+    if (!clip) return false;
+    const Layer* alone = _layers->alone();
+    const BakedClip* baked = findBaked(alone);
     SampledClip::Place at;
     if (baked) {
-        const Layer& layer = *layerAlone();
-        at = layer.clip->place(layer.time, layer.loop);
-        if ((!_interpolated || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
+        at = alone->clip->place(alone->time, alone->loop);
+        if ((!getInterpolated() || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
     }
-    if (!knowsJoints()) findJoints();
+    if (!knowsJoints(*clip)) findJoints(*clip);
     static thread_local std::vector<JointSample> samples;
     static thread_local std::vector<JointMap> own, whole;
-    sampleJoints(samples);
-    const std::vector<SampledClip::Joint>& joints = _layers[_base].clip->joints();
+    _layers->sample(samples, posedJoints());
+    const std::vector<SampledClip::Joint>& joints = clip->joints();
     own.resize(samples.size());
     whole.resize(samples.size());
     for (std::size_t j = 0; j < samples.size(); ++j) {

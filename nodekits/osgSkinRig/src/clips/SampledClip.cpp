@@ -8,6 +8,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/Pose>
+#include <osgSkinRig/JointRoles>
 #include <osgSkinRig/MakeAnimation>
 
 #include <glm/geometric.hpp>
@@ -123,6 +124,30 @@ constexpr double kMaxJointSamples = 1e7;
 
 JointSample blend(const JointSample& a, const JointSample& b, double share) noexcept {
     return SampleBlend(share)(a, b);
+}
+
+std::vector<std::string> jointsBelow(const SampledClip& clip, const std::string& joint) {
+    std::vector<std::string> result;
+    std::vector<bool> isBelow;
+    for (const SampledClip::Joint& each : clip.joints()) {
+        isBelow.push_back(each.name == joint ||
+                          (each.parent >= 0 && isBelow[static_cast<std::size_t>(each.parent)]));
+        if (isBelow.back()) result.push_back(each.name);
+    }
+    if (result.empty())
+        throw Error("sampled clip \"" + clip.name() + "\": no joint \"" + joint + "\"");
+    return result;
+}
+
+std::vector<std::string> jointsBelowRole(const SampledClip& clip, const std::string& role) {
+    RestSkeleton rest;
+    for (const SampledClip::Joint& joint : clip.joints())
+        rest.add(joint.name, joint.parent, joint.centre);
+    const int joint = recogniseJoints(rest).joint(role);
+    if (joint < 0)
+        throw Error("sampled clip \"" + clip.name() + "\": no joint has the role \"" + role +
+                    "\"; expected a body with names as JointNames has them");
+    return jointsBelow(clip, rest.joints[static_cast<std::size_t>(joint)].name);
 }
 
 osg::ref_ptr<const SampledClip> SampledClip::create(const Clip& clip, const RestSkeleton& rig) {

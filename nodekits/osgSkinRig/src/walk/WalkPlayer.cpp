@@ -22,8 +22,6 @@ constexpr double kShortest = 0.45;  ///< the shortest steps, as shares of the cl
 
 constexpr double kLevel = 0.003; ///< leg lengths by which a point of the sole is lower
 
-constexpr double kFadeOut = 0.2; ///< seconds, of a clip on the upper body
-
 } // namespace
 
 WalkPlayer::WalkPlayer(const osg::ref_ptr<const Gaits>& gaits)
@@ -175,24 +173,13 @@ void WalkPlayer::move(const osg::Matrixd& place, double dt, const double* speed)
     moveFeet(dt, phaseStep);
     bendLegs();
     advance(dt);
-    if (_clipLeft <= -kFadeOut) return;
-    const bool plays = _clipLeft > 0.0;
-    _clipLeft -= dt;
-    if (plays && _clipLeft <= 0.0) stopOn(kFadeOut);
 }
 
 bool WalkPlayer::playClip(const SampledClip& clip, double fade) {
     const Gaits::Set& set = _gaits->get();
-    if (!playOn(set.standing->joints()[set.upperBody].name, {&clip, 0.0, 1.0, false}, fade))
-        return false;
-    _clipLeft = std::max(clip.duration() - fade, 1e-9);
-    return true;
-}
-
-void WalkPlayer::stopClip(double fade) {
-    if (_clipLeft <= 0.0) return;
-    _clipLeft = 0.0;
-    stopOn(fade);
+    Layer layer{&clip, 0.0, 1.0, false};
+    layer.fadeOut = fade;
+    return playOn(set.standing->joints()[set.upperBody].name, layer, fade);
 }
 
 void WalkPlayer::stand() {
@@ -209,7 +196,7 @@ bool WalkPlayer::isStopped() const {
 }
 
 bool WalkPlayer::isStill() const {
-    return _walking == 0.0 && _pace == 0.0 && _newWay == 0.0 && _clipLeft <= -kFadeOut &&
+    return _walking == 0.0 && _pace == 0.0 && _newWay == 0.0 && !getLayer(kPartLayer).clip &&
            _feet[0].step < 0.0 && _feet[1].step < 0.0;
 }
 

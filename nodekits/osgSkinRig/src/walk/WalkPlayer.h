@@ -51,13 +51,12 @@ public:
 
     /// Plays a clip on the upper body once.
     bool playClip(const SampledClip& clip, double fade);
-    void stopClip(double fade);
 
     /// Whether another move() without way and with any time would change nothing.
     bool isStill() const;
 
 protected:
-    void sampleLayers(std::vector<JointSample>& joints) const override { joints = _joints; }
+    const JointSample* posedJoints() const override { return _joints.data(); }
 
 private:
     static constexpr double kGaitTime = 0.3; ///< seconds from standing to walking, and to running
@@ -119,8 +118,6 @@ private:
     double _phase = 0.0;
     double _standingTime = 0.0;
     std::array<Foot, 2> _feet;
-    double _clipLeft = -1.0; ///< seconds of playClip()
-
     std::vector<JointSample> _joints; ///< of the present pose
     std::vector<JointMap> _whole;     ///< the same, with the joints above
 };

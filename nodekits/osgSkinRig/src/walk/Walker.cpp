@@ -149,7 +149,7 @@ bool Walker::play(const std::string& clip, double fade) {
 }
 
 void Walker::stop(double fade) {
-    if (_walking) _walking->player->stopClip(fade);
+    if (_walking) _walking->player->stopOn(fade);
 }
 
 double Walker::phase() const {
