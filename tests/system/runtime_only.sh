@@ -24,8 +24,9 @@ runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
 rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)
 gpu=$(find "$folder/installed" -name 'libosgSkinGpu.so.*' -type f)
 serializers=$(find "$folder/installed" -name osgdb_serializers_osgskin.so)
-[ "$(find "$folder/installed" -type f | wc -l)" -eq 4 ] || fail "more than the four libraries is installed"
-for file in "$runtime" "$rig" "$gpu" "$serializers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
+walkers=$(find "$folder/installed" -name osgdb_serializers_osgskinrig.so)
+[ "$(find "$folder/installed" -type f | wc -l)" -eq 5 ] || fail "more than the five libraries is installed"
+for file in "$runtime" "$rig" "$gpu" "$serializers" "$walkers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
   "$build"/lib/osgPlugins-*/osgdb_serializers_osgskin.so; do
   needed=$(readelf -d "$file" | grep NEEDED)
   case $file in *serializers*) ;; *) grep -q libosgDB.so <<<"$needed" && fail "$file needs osgDB" ;; esac
