@@ -187,8 +187,9 @@ TEST(Allocation, NoneInAThousandFramesOfClipLayers) {
     const auto clip = osgSkin::SampledClip::create("clip", joints, samples, 0.1);
     const test::Tube tube;
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX,
-                                                static_cast<unsigned int>(tube.positions.size())));
+    const auto vertices = static_cast<unsigned int>(tube.positions.size());
+    geometry->setVertexArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, vertices));
+    geometry->setNormalArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, vertices));
     const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
     skin->setSkin(geometry, tube.model());
     const osg::ref_ptr<osgSkin::ClipPlayer> player = new osgSkin::ClipPlayer;
