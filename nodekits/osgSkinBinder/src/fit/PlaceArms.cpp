@@ -40,9 +40,11 @@ void placeShoulder(const FitBody& body, std::size_t side, PlacedJoints& placed) 
                     "for " +
                     name);
     const double top = std::min(cut->high(1), armpit->point.y + 0.13);
-    placed.place(
-        name, {armpit->point.x, glm::mix(armpit->point.y, top, part::kShoulderUp), cut->centre.z},
-        "above the armpit");
+    const double inside = armpit->point.x - std::copysign(part::kShoulderInside, armpit->point.x);
+    placed.place(name,
+                 {inside, glm::mix(armpit->point.y, top, part::kShoulderUp),
+                  cut->centre.z + part::kShoulderAhead},
+                 "above the armpit");
 }
 
 /// The surface's farthest point along the hand.
@@ -130,7 +132,7 @@ glm::dvec3 bend(const MiddleLine& line, double toWrist, const glm::dvec3& wrist)
                             distance2(line.points[i], elbow, wrist));
             count += 1.0;
         }
-        const double doubt = 0.02 * (ratio - kProportion);
+        const double doubt = 0.08 * (ratio - kProportion);
         const double cost = sum / std::max(count, 1.0) + doubt * doubt;
         if (cost >= least) continue;
         least = cost;

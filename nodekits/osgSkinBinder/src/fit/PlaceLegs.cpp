@@ -80,7 +80,7 @@ void placeHip(const FitBody& body, std::size_t side, PlacedJoints& placed) {
     const double height = skirted ? part::kHipHeight : crotch->point.y + part::kHipAboveCrotch;
     double depth = thigh.z;
     if (const auto section = body.surface.sectionAt({0.0, height, thigh.z}, kUp, 0.05))
-        depth = glm::mix(section->low(2), section->high(2), part::kHipsDepth);
+        depth = glm::mix(section->low(2), section->high(2), part::kHipDepth);
     placed.place(name, {thigh.x, height, depth},
                  skirted ? "share of the height, above a skirt's hem" : "above the crotch");
 }
