@@ -112,14 +112,14 @@ void requireDifferentFiles(const Arguments& arguments) {
     // The rest pose and the frames may share a library: its contents are the same.
     const std::string ofOut = libraryOf(out), ofRest = libraryOf(arguments.rest);
     for (const std::string& file :
-         {out, arguments.rest, arguments.binding, arguments.pose, arguments.walker, ofOut,
-          ofRest == ofOut ? std::string() : ofRest}) {
+         {out, arguments.rest, arguments.binding, arguments.pose, arguments.rigged,
+          arguments.walker, ofOut, ofRest == ofOut ? std::string() : ofRest}) {
         if (file.empty()) continue;
         const bool isFrame = file != out && isFrameOf(out, file);
         if (isFrame || !files.insert(std::filesystem::absolute(file).lexically_normal()).second)
             throw UsageError{
                 "expected a file of its own for each of --out, --rest, --binding, "
-                "--pose and --walker, and for the materials of the first two, found \"" +
+                "--pose, --rigged and --walker, and for the materials of the first two, found \"" +
                 file + "\" twice"};
     }
 }
@@ -143,6 +143,8 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     Arguments arguments;
     std::string frames;
     std::vector<std::string> tensed, morphs;
+    int helpers = int(arguments.helpers);
+    std::string weights = "4";
     line.add("CHARACTER", arguments.character, example::kCharacterHelp);
     line.add("--list", arguments.list,
              "list joints with their roles, clips, morph targets and muscles; write nothing");
@@ -158,6 +160,16 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     const auto rest = line.add("--rest", arguments.rest, "write the bind pose").valueOptional();
     line.add("--binding", arguments.binding, "write joints, regions and ratios (JSON)");
     line.add("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
+    const auto rigged = line.add(
+        "--rigged", arguments.rigged,
+        "write a skeleton, weights and clips for other engines (.glb); all clips without --motion");
+    line.add("--helpers", helpers,
+             "helper joints of --rigged for each joint that bends skin, in the mean at most; 8")
+        .range(0, 64)
+        .needs(rigged);
+    line.add("--weights", weights, "weights a vertex of --rigged: 4 (the default) or 8")
+        .oneOf({"4", "8"})
+        .needs(rigged);
     const auto walker =
         line.add("--walker", arguments.walker,
                  "write a pedestrian that walks by itself (.osgb), see osgSkin::Walker");
@@ -177,6 +189,11 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
              "or .ive file that a .skin file names");
     line.add("--quiet", arguments.quiet, "no progress and no summary");
     line.parse(argc, argv);
+    arguments.helpers = std::size_t(helpers);
+    arguments.weights = weights == "8" ? 8 : 4;
+    if (rigged.isGiven() && extensionOf(arguments.rigged) != "glb")
+        throw UsageError{"--rigged: expected a file whose name ends in .glb, found \"" +
+                         arguments.rigged + "\""};
     if (faces == "-y") gaits.forward = osgSkin::WalkerOptions::Forward::MinusY;
     if (walker.isGiven() && extensionOf(arguments.walker) != "osgb" &&
         extensionOf(arguments.walker) != "osgt" && extensionOf(arguments.walker) != "osgx")

@@ -24,11 +24,13 @@ struct Arguments {
     osgSkin::LoadOptions options; ///< override the character file's
     std::vector<std::pair<std::string, float>> activations; ///< of inputs, by name
     std::vector<std::pair<std::string, float>> morphs;      ///< weights of morph targets, by name
-    std::string out;     ///< file name pattern of the frames; empty for no frames
-    std::string rest;    ///< file for the bind pose; empty for none
-    std::string binding; ///< JSON file for the binding; empty for none
-    std::string pose;    ///< JSON file for the poses; empty for none
-    std::string walker;  ///< .osgb file for a walker; empty for none
+    std::string out;                      ///< file name pattern of the frames; empty for no frames
+    std::string rest;                     ///< file for the bind pose; empty for none
+    std::string binding;                  ///< JSON file for the binding; empty for none
+    std::string pose;                     ///< JSON file for the poses; empty for none
+    std::string rigged;                   ///< .glb file with a skeleton; empty for none
+    std::size_t helpers = 8, weights = 4; ///< of `rigged`, see LinearSkinOptions
+    std::string walker;                   ///< .osgb file for a walker; empty for none
     osgSkin::WalkerOptions walkerOptions;
     std::string formats; ///< value of the option `formats`; empty if not given
     bool list = false;   ///< only list joints, clips, morph targets and muscles

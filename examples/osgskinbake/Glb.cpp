@@ -17,6 +17,7 @@ namespace bake {
 
 namespace {
 
+constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
 constexpr int kArrayBuffer = 34962;
@@ -98,9 +99,61 @@ std::size_t GlbBuffer::addTimes(const std::vector<float>& ascending) {
 }
 
 std::size_t GlbBuffer::addNumbers(const std::vector<float>& numbers) {
+    return addFloats(numbers, "SCALAR", 1);
+}
+
+std::size_t GlbBuffer::addFloats(const std::vector<float>& numbers, const char* type,
+                                 std::size_t width) {
     const std::size_t begin = size();
     for (const float number : numbers) _bytes.add(number);
-    return addAccessor(begin, numbers.size(), "SCALAR", kFloat, Use::Data);
+    return addAccessor(begin, numbers.size() / width, type, kFloat, Use::Data);
+}
+
+std::size_t GlbBuffer::addSparse(std::size_t count, const std::vector<std::uint32_t>& vertices,
+                                 const std::vector<glm::dvec3>& vectors) {
+    std::array<float, 3> low{}, high{};
+    nlohmann::json accessor{{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}};
+    if (!vertices.empty()) {
+        std::size_t begin = size();
+        for (const std::uint32_t vertex : vertices) _bytes.add(vertex);
+        const std::size_t indices = addView(begin, Use::Data);
+        begin = size();
+        if (vertices.size() == count) {
+            low.fill(std::numeric_limits<float>::max());
+            high.fill(std::numeric_limits<float>::lowest());
+        }
+        for (const glm::dvec3& v : vectors) {
+            _bytes.add(v);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto value = static_cast<float>(v[static_cast<int>(axis)]);
+                low[axis] = std::min(low[axis], value);
+                high[axis] = std::max(high[axis], value);
+            }
+        }
+        accessor["sparse"] = {
+            {"count", vertices.size()},
+            {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
+            {"values", {{"bufferView", addView(begin, Use::Data)}}}};
+    }
+    accessor["min"] = low;
+    accessor["max"] = high;
+    _accessors.push_back(std::move(accessor));
+    return _accessors.size() - 1;
+}
+
+std::size_t GlbBuffer::addJoints(const std::vector<std::uint16_t>& joints) {
+    const std::size_t begin = size();
+    for (const std::uint16_t joint : joints) {
+        _bytes.add(static_cast<std::uint8_t>(joint & 255));
+        _bytes.add(static_cast<std::uint8_t>(joint >> 8));
+    }
+    return addAccessor(begin, joints.size() / 4, "VEC4", kUnsignedShort, Use::Vertices);
+}
+
+std::size_t GlbBuffer::addWeights(const std::vector<float>& weights) {
+    const std::size_t begin = size();
+    for (const float weight : weights) _bytes.add(weight);
+    return addAccessor(begin, weights.size() / 4, "VEC4", kFloat, Use::Vertices);
 }
 
 std::size_t GlbBuffer::addFile(const std::string& data) {

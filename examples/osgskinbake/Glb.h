@@ -30,6 +30,13 @@ public:
     std::size_t addIndices(const std::vector<std::uint32_t>& indices);
     std::size_t addTimes(const std::vector<float>& ascending);
     std::size_t addNumbers(const std::vector<float>& numbers);
+    /// Animated or other numbers that are no vertices', `width` of them for each of `type`.
+    std::size_t addFloats(const std::vector<float>& numbers, const char* type, std::size_t width);
+    /// Vectors of a morph target: 0 but for those of `vertices`, which ascend.
+    std::size_t addSparse(std::size_t count, const std::vector<std::uint32_t>& vertices,
+                          const std::vector<glm::dvec3>& vectors);
+    std::size_t addJoints(const std::vector<std::uint16_t>& joints); ///< four a vertex
+    std::size_t addWeights(const std::vector<float>& weights);       ///< four a vertex, as joints
     std::size_t addFile(const std::string& data); ///< returns the index of the view
 
     std::size_t size() const { return _bytes.data.size(); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "PosedMesh.h"
 
-#include <osgSkin/BoneReader>
 #include <osgSkin/Deform>
 #include <osgSkin/GlmOsg>
 
@@ -77,15 +76,20 @@ private:
 
 } // namespace
 
-osgSkin::Pose currentPose(const osgSkin::Character& character) {
-    osgSkin::BoneReader reader(character.binding.joints, *character.skeleton);
-    const std::vector<glm::dmat4>& skinning = reader.read();
+void readPose(const osgSkin::Character& character, const osgSkin::BoneReader& reader,
+              osgSkin::Pose& pose) {
     const std::vector<std::string>& inputs = character.binding.correctives.inputs;
-    osgSkin::Pose pose(character.binding.joints, inputs.size());
     if (!character.skin.skins.empty())
         for (std::size_t i = 0; i < inputs.size(); ++i)
             pose.setInput(i, character.skin.skins.front().drawable->getActivation(inputs[i]));
-    pose.set(skinning.data(), skinning.size());
+    const std::vector<glm::dmat4>& skinning = reader.read();
+    pose.set(skinning.data(), skinning.size(), osgSkin::Pose::Twist::Continued);
+}
+
+osgSkin::Pose currentPose(const osgSkin::Character& character) {
+    const osgSkin::BoneReader reader(character.binding.joints, *character.skeleton);
+    osgSkin::Pose pose(character.binding.joints, character.binding.correctives.inputs.size());
+    readPose(character, reader, pose); // a new pose has no twists to continue
     return pose;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgSkin/BoneReader>
 #include <osgSkin/Pose>
 #include <osgSkinCharacter/Character>
 
@@ -23,6 +24,11 @@ struct PosedMesh {
     /// The same in the bind pose, regardless of the bones.
     static PosedMesh rest(const osgSkin::Character& character);
 };
+
+/// Sets a pose to that of the bones and the inputs of correctives. Twists continue those that it
+/// has.
+void readPose(const osgSkin::Character& character, const osgSkin::BoneReader& reader,
+              osgSkin::Pose& pose);
 
 /// The joints' transforms in the current pose of the character's bones.
 osgSkin::Pose currentPose(const osgSkin::Character& character);

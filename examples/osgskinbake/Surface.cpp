@@ -81,6 +81,9 @@ public:
             newIndex[order[k]] = k;
             result.sourceVertex.push_back(vertex.source);
             result.drawn.push_back(vertex.drawn);
+            const glm::dvec3 normal = osgSkin::toGlm(osg::Vec3d(vertex.normal));
+            const double length = glm::length(normal);
+            result.restNormals.push_back(length > 0.0 ? normal / length : glm::dvec3(0, 1, 0));
             if (_hasTexCoords) result.texCoords.push_back(vertex.texCoord);
             if (_hasColours) result.colours.push_back(vertex.colour);
         }

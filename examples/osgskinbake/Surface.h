@@ -29,6 +29,7 @@ struct Surface {
     osg::ref_ptr<osg::StateSet> state;
     std::vector<std::uint32_t> sourceVertex; ///< the mesh's vertex, one per vertex
     std::vector<Drawn> drawn;                ///< one per vertex
+    std::vector<glm::dvec3> restNormals;     ///< one per vertex, unit, in rest space
     std::vector<osg::Vec2> texCoords;        ///< one per vertex, from the lower left; or empty
     std::vector<osg::Vec4> colours;          ///< one per vertex, sRGB; or empty
     std::vector<std::uint32_t> triangles;    ///< three vertices each

@@ -5,9 +5,11 @@
 #include "ObjWriter.h"
 #include "PosedMesh.h"
 #include "ProgressLine.h"
+#include "RiggedGlb.h"
 #include "WalkerFile.h"
 
 #include <osgSkin/Binding>
+#include <osgSkin/BoneReader>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
@@ -225,7 +227,10 @@ const char kFooter[] =
     "a\n"
     "range is included. A pose is that sample, not a blend. Meshes have the input mesh's own\n"
     "vertices and faces, in its order, rigid parts included.\n"
-    "Without --out, --rest, --binding and --pose, nothing is written. `--rest` without a file "
+    "--rigged writes a skeleton, four weights a vertex and all clips, for engines that blend\n"
+    "linearly; helper joints carry parts of the joints' bends and twists in every clip.\n"
+    "Without --out, --rest, --binding, --pose and --rigged, nothing is written. `--rest` without a "
+    "file "
     "writes\n"
     "the bind pose to --out in place of the frames.";
 
@@ -315,6 +320,51 @@ void bakeFrames(const Arguments& arguments, Character& character) {
                   << motion.notes << std::flush;
 }
 
+/// Samples the chosen clip, or all of them, for a rigged file.
+std::vector<bake::RiggedClip> riggedClips(const Arguments& arguments, Character& character) {
+    std::vector<SampledMotion> motions;
+    if (character.motions.empty()) return {};
+    if (!arguments.motion.empty() || arguments.frames || arguments.rate)
+        motions.push_back(chooseMotion(character, arguments)); // checks the arguments
+    if (arguments.motion.empty() && !arguments.frames)
+        motions = bake::sampledMotions(character, arguments.rate.value_or(30.0));
+    example::ProgressLine line("clips", arguments.quiet);
+    const std::vector<std::string> morphs = character.morphs();
+    const osgSkin::BoneReader reader(character.binding.joints, *character.skeleton);
+    std::vector<bake::RiggedClip> clips;
+    for (const SampledMotion& motion : motions) {
+        const example::FrameRange range = chooseFrames(arguments, motion);
+        bake::RiggedClip clip;
+        clip.name = motion.name;
+        clip.seconds = motion.frameTime * static_cast<double>(range.step);
+        osgSkin::Pose pose(character.binding.joints, character.binding.correctives.inputs.size());
+        line.show({motion.name, double(clips.size()) / double(motions.size())});
+        for (std::size_t done = 0; done < range.count(); ++done) {
+            motion.pose(range.first + done * range.step);
+            morph(character, arguments);
+            bake::readPose(character, reader, pose);
+            clip.poses.push_back(pose);
+            clip.morphs.emplace_back();
+            for (const std::string& name : morphs)
+                clip.morphs.back().push_back(osgSkin::getMorph(*character.root, name));
+        }
+        clips.push_back(std::move(clip));
+    }
+    return clips;
+}
+
+void bakeRigged(const Arguments& arguments, Character& character) {
+    const std::vector<bake::RiggedClip> clips = riggedClips(arguments, character);
+    const bake::RiggedReport report = bake::writeRigged(arguments.rigged, character, clips,
+                                                        {arguments.weights, arguments.helpers});
+    if (arguments.quiet) return;
+    std::cerr << arguments.rigged << ": " << report.joints << " joints, " << report.helpers
+              << " helper joints, " << clips.size() << " clips, " << report.morphs
+              << " morph targets and " << report.correctives << " of correctives; skin is at most "
+              << report.worst << " of a limb's radius off in the poses of the fit\n"
+              << std::flush;
+}
+
 /// Finds nodes of a character's scene that are not its body: props, scenery, objects without a rig.
 class OtherThings : public osg::NodeVisitor {
 public:
@@ -355,7 +405,7 @@ void reportOtherThings(const Character& character) {
 
 bool writesMeshes(const Arguments& arguments) {
     return !arguments.out.empty() || !arguments.rest.empty() || !arguments.binding.empty() ||
-           !arguments.pose.empty();
+           !arguments.pose.empty() || !arguments.rigged.empty();
 }
 
 /// Loads the motion files among a walker's clips, and names the clips that they become.
@@ -426,7 +476,7 @@ void tense(Character& character, const Arguments& arguments) {
 UsageError nothingToWrite(Character& character, const Arguments& arguments) {
     const SampledMotion motion = chooseMotion(character, arguments);
     return UsageError(
-        "nothing to write: expected --out, --rest, --binding, --pose or --walker; \"" +
+        "nothing to write: expected --out, --rest, --binding, --pose, --rigged or --walker; \"" +
         motion.name + "\" has " + std::to_string(chooseFrames(arguments, motion).count()) +
         " frames, for example for --out frame_%04d.obj or --out frames.glb");
 }
@@ -451,6 +501,7 @@ int run(Arguments arguments) {
         bake::ObjWriter(character, arguments.rest)
             .write(arguments.rest, bake::PosedMesh::rest(character));
     if (!arguments.out.empty() || !arguments.pose.empty()) bakeFrames(arguments, character);
+    if (!arguments.rigged.empty()) bakeRigged(arguments, character);
     if (arguments.quiet) return 0;
     std::cerr << "bound by "
               << (character.bindReport.boundaries.empty() ? "painted weights"

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+#include "LinearSkin.h"
+
+#include <osgSkin/BendTwist>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace bake {
+
+using osgSkin::Binding;
+using osgSkin::Influence;
+using osgSkin::JointMap;
+
+JointMap operator*(const JointMap& a, const JointMap& b) {
+    return {a.rotation * b.rotation, a * b.offset, a.scale * b.scale};
+}
+
+glm::dvec3 operator*(const JointMap& map, const glm::dvec3& x) {
+    return map.offset + map.scale * (map.rotation * x);
+}
+
+JointMap inverse(const JointMap& map) {
+    const glm::dquat back = glm::conjugate(map.rotation);
+    return {back, back * map.offset * (-1.0 / map.scale), 1.0 / map.scale};
+}
+
+PosedJoints::PosedJoints(const std::vector<osgSkin::BoundJoint>& joints, const osgSkin::Pose& pose)
+    : _joints(joints) {
+    for (std::size_t j = 0; j < joints.size(); ++j) _turns.push_back(pose.transform(j));
+}
+
+JointMap PosedJoints::own(const Influence& ratio) const {
+    const osgSkin::JointTransform& turn = _turns[ratio.joint];
+    if (ratio.bend == 1.0f && ratio.twist == 1.0f) return {turn.rotation, turn.offset, turn.scale};
+    const osgSkin::BoundJoint& joint = _joints[ratio.joint];
+    const double bend = double(ratio.bend), scale = 1.0 + bend * (turn.scale - 1.0);
+    const glm::dquat q =
+        osgSkin::partialRotation(turn.split, joint.twistAxis, bend, double(ratio.twist));
+    return {q, joint.centre + bend * turn.translation - scale * (q * joint.centre), scale};
+}
+
+JointMap PosedJoints::product(const Ratios& ratios) const {
+    JointMap result;
+    for (const Influence& ratio : ratios) result = result * own(ratio);
+    return result;
+}
+
+std::vector<double> limbRadii(const Binding& binding, const std::vector<glm::dvec3>& rest) {
+    std::vector<std::vector<double>> distances(binding.joints.size());
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i) {
+            const Influence& influence = binding.influences[i];
+            if (influence.bend < 0.25f || influence.bend > 0.75f) continue;
+            const osgSkin::BoundJoint& joint = binding.joints[influence.joint];
+            const glm::dvec3 d = rest[v] - joint.centre;
+            distances[influence.joint].push_back(
+                glm::length(d - glm::dot(d, joint.twistAxis) * joint.twistAxis));
+        }
+    std::vector<double> radii(distances.size(), 0.0), known;
+    const auto median = [](std::vector<double>& of) {
+        const auto middle = of.begin() + std::ptrdiff_t(of.size() / 2);
+        std::nth_element(of.begin(), middle, of.end());
+        return *middle;
+    };
+    for (std::size_t j = 0; j < radii.size(); ++j)
+        if (!distances[j].empty()) known.push_back(radii[j] = median(distances[j]));
+    const double other = known.empty() ? 1.0 : median(known);
+    for (double& radius : radii)
+        if (!(radius > 0.0)) radius = other;
+    return radii;
+}
+
+namespace {
+
+constexpr std::size_t kCandidates = 16; ///< nearest helpers that a vertex's weights are chosen from
+constexpr double kNegligible = 0.002;   ///< error in radii of the limb; no helper is made for it
+constexpr std::size_t kMaxTried = 6000; ///< vertices for which helpers are chosen
+
+/// Products of distances from a vertex, of up to kCandidates helpers.
+using Gram = std::array<std::array<double, kCandidates>, kCandidates>;
+using Weights = std::array<double, kCandidates>;
+
+double squaredError(const Gram& gram, const Weights& w) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kCandidates; ++i)
+        for (std::size_t k = 0; w[i] > 0.0 && k < kCandidates; ++k) sum += w[i] * gram[i][k] * w[k];
+    return sum;
+}
+
+/// The weights of sum 1, of any sign, with the least error, where only `used` may be other than 0.
+Weights affineWeights(const Gram& gram, const std::vector<std::size_t>& used) {
+    // Cholesky; a little on the diagonal separates helpers that move alike.
+    const std::size_t n = used.size();
+    Gram factor{};
+    double largest = 0.0;
+    for (const std::size_t i : used) largest = std::max(largest, gram[i][i]);
+    const double little = 1e-12 * largest + std::numeric_limits<double>::min();
+    std::array<double, kCandidates> z{};
+    for (std::size_t i = 0; i < n; ++i) {
+        double one = 1.0;
+        for (std::size_t k = 0; k <= i; ++k) {
+            double sum = gram[used[i]][used[k]] + (i == k ? little : 0.0);
+            for (std::size_t m = 0; m < k; ++m) sum -= factor[i][m] * factor[k][m];
+            factor[i][k] = i == k ? std::sqrt(std::max(sum, little)) : sum / factor[k][k];
+            if (k < i) one -= factor[i][k] * z[k];
+        }
+        z[i] = one / factor[i][i];
+    }
+    double total = 0.0;
+    for (std::size_t i = n; i-- > 0;) {
+        for (std::size_t k = i + 1; k < n; ++k) z[i] -= factor[k][i] * z[k];
+        total += z[i] /= factor[i][i];
+    }
+    Weights result{};
+    for (std::size_t i = 0; i < n; ++i) result[used[i]] = z[i] / total;
+    return result;
+}
+
+/// The weights of sum 1 and at least 0 with the least error: the point nearest to the vertex in the
+/// hull of its positions by each helper alone (Wolfe 1976).
+Weights hullWeights(const Gram& gram, const std::vector<std::size_t>& allowed) {
+    std::vector<std::size_t> used{
+        *std::min_element(allowed.begin(), allowed.end(),
+                          [&](std::size_t a, std::size_t b) { return gram[a][a] < gram[b][b]; })};
+    Weights w{};
+    w[used[0]] = 1.0;
+    for (std::size_t round = 0; round < 3 * kCandidates; ++round) {
+        std::size_t best = kCandidates;
+        double least = squaredError(gram, w) * (1.0 - 1e-9);
+        for (const std::size_t i : allowed) {
+            double slope = 0.0;
+            for (const std::size_t k : used) slope += gram[i][k] * w[k];
+            if (w[i] <= 0.0 && slope < least) {
+                least = slope;
+                best = i;
+            }
+        }
+        if (best == kCandidates) break;
+        used.push_back(best);
+        for (;;) {
+            const Weights next = affineWeights(gram, used);
+            double step = 1.0;
+            for (const std::size_t i : used)
+                if (next[i] <= 0.0) step = std::min(step, w[i] / (w[i] - next[i]));
+            for (const std::size_t i : used) w[i] += step * (next[i] - w[i]);
+            if (step >= 1.0) break;
+            const auto gone = [&](std::size_t i) { return w[i] <= 1e-12; };
+            for (const std::size_t i : used)
+                if (gone(i)) w[i] = 0.0;
+            used.erase(std::remove_if(used.begin(), used.end(), gone), used.end());
+            if (used.empty()) return w; // not reached: weights sum to 1
+        }
+    }
+    return w;
+}
+
+/// hullWeights() of which at most `most` are not 0.
+Weights fewWeights(const Gram& gram, std::size_t count, std::size_t most) {
+    std::vector<std::size_t> allowed(count);
+    std::iota(allowed.begin(), allowed.end(), std::size_t(0));
+    Weights w = hullWeights(gram, allowed);
+    for (;;) {
+        allowed.clear();
+        for (std::size_t i = 0; i < count; ++i)
+            if (w[i] > 1e-6) allowed.push_back(i);
+        if (allowed.size() <= most) break;
+        // Leave out the one whose loss costs least.
+        double least = std::numeric_limits<double>::max();
+        for (const std::size_t out : allowed) {
+            std::vector<std::size_t> others;
+            for (const std::size_t i : allowed)
+                if (i != out) others.push_back(i);
+            const Weights next = hullWeights(gram, others);
+            const double error = squaredError(gram, next);
+            if (error < least) {
+                least = error;
+                w = next;
+            }
+        }
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) sum += w[i] > 1e-6 ? w[i] : w[i] = 0.0;
+    for (double& weight : w) weight /= sum;
+    return w;
+}
+
+class Fit {
+public:
+    Fit(const Binding& binding, const std::vector<glm::dvec3>& rest,
+        const std::vector<osgSkin::Pose>& poses, const LinearSkinOptions& options)
+        : _binding(binding), _rest(rest), _options(options), _radii(limbRadii(binding, rest)) {
+        for (const osgSkin::Pose& pose : poses) _poses.emplace_back(binding.joints, pose);
+        _bends.resize(binding.joints.size(), 1e-6);
+        _twists = _bends;
+        for (const PosedJoints& pose : _poses)
+            for (std::size_t j = 0; j < _bends.size(); ++j) {
+                const double count = double(_poses.size());
+                _bends[j] += pose[j].split.bendAngle * pose[j].split.bendAngle / count;
+                _twists[j] += pose[j].split.twistAngle * pose[j].split.twistAngle / count;
+            }
+        orderInfluences();
+        const std::vector<std::uint32_t> places =
+            osgSkin::productPlaces(osgSkin::productOrder(binding.joints));
+        for (std::uint32_t j = 0; j < binding.joints.size(); ++j) {
+            Ratios chain;
+            for (int at = int(j); at >= 0; at = binding.joints[std::size_t(at)].parent)
+                chain.push_back({std::uint32_t(at), 1.0f, 1.0f});
+            std::sort(chain.begin(), chain.end(), [&](const auto& a, const auto& b) {
+                return places[a.joint] < places[b.joint];
+            });
+            addTarget({chain, j, j});
+        }
+    }
+
+    LinearSkin run() {
+        LinearSkin result;
+        result.vertices.resize(_rest.size());
+        std::vector<Vertex> blended;
+        for (std::uint32_t v = 0; v < _rest.size(); ++v) {
+            const Vertex vertex = vertexOf(v);
+            const std::size_t joint = wholeJoint(v);
+            if (joint < _binding.joints.size())
+                result.vertices[v] = {{std::uint32_t(joint), 1.0f}};
+            else
+                blended.push_back(vertex);
+        }
+        if (!_poses.empty()) chooseHelpers(blended);
+        for (Vertex& vertex : blended) {
+            vertex.near.clear();
+            for (std::size_t h = 0; h < _targets.size(); ++h) isNear(vertex, h);
+            result.worst = std::max(result.worst, solve(vertex));
+            std::vector<LinearSkin::Weight>& weights = result.vertices[vertex.index];
+            for (std::size_t i = 0; i < vertex.near.size(); ++i)
+                if (vertex.weights[i] > 0.0)
+                    weights.push_back({vertex.near[i].second, float(vertex.weights[i])});
+            std::sort(weights.begin(), weights.end(),
+                      [](const auto& a, const auto& b) { return a.weight > b.weight; });
+        }
+        for (std::size_t h = _binding.joints.size(); h < _targets.size(); ++h)
+            result.helpers.push_back(_targets[h]);
+        return result;
+    }
+
+private:
+    /// A vertex that follows some joint in part.
+    struct Vertex {
+        std::uint32_t index = 0;
+        std::uint32_t joint = 0; ///< that it follows most evenly in part
+        double radius = 1.0;
+        /// The nearest joints and helpers, by squared distance; kCandidates at most.
+        std::vector<std::pair<double, std::uint32_t>> near;
+        Weights weights{};
+        double error = 0.0; ///< largest over the poses, in radii
+    };
+
+    void orderInfluences() {
+        const std::vector<std::uint32_t> places =
+            osgSkin::productPlaces(osgSkin::productOrder(_binding.joints));
+        _ratios.resize(_rest.size());
+        for (std::size_t v = 0; v < _rest.size(); ++v) {
+            Ratios& ratios = _ratios[v];
+            ratios.assign(_binding.influences.begin() + _binding.firstInfluence[v],
+                          _binding.influences.begin() + _binding.firstInfluence[v + 1]);
+            std::sort(ratios.begin(), ratios.end(), [&](const auto& a, const auto& b) {
+                return places[a.joint] < places[b.joint];
+            });
+        }
+    }
+
+    void addTarget(HelperJoint helper) {
+        std::vector<JointMap> maps;
+        for (const PosedJoints& pose : _poses) maps.push_back(pose.product(helper.ratios));
+        _maps.push_back(std::move(maps));
+        _targets.push_back(std::move(helper));
+    }
+
+    /// The joint whose motion a vertex has wholly; the number of joints if there is none.
+    std::size_t wholeJoint(std::uint32_t v) const {
+        for (std::size_t j = 0; j < _binding.joints.size(); ++j) {
+            const Ratios& chain = _targets[j].ratios;
+            if (chain.size() == _ratios[v].size() &&
+                std::equal(chain.begin(), chain.end(), _ratios[v].begin(),
+                           [](const Influence& a, const Influence& b) {
+                               return a.joint == b.joint && a.bend == b.bend && a.twist == b.twist;
+                           }))
+                return j;
+        }
+        return _binding.joints.size();
+    }
+
+    Vertex vertexOf(std::uint32_t v) const {
+        Vertex result;
+        result.index = v;
+        float most = -1.0f;
+        for (const Influence& ratio : _ratios[v]) {
+            const float evenly =
+                std::max(ratio.bend * (1.0f - ratio.bend), ratio.twist * (1.0f - ratio.twist));
+            if (evenly <= most) continue;
+            most = evenly;
+            result.joint = ratio.joint;
+        }
+        result.radius = _radii[result.joint];
+        return result;
+    }
+
+    /// How far a helper takes a vertex from its place, roughly and squared, in the poses' mean.
+    double distance(const Vertex& vertex, const Ratios& helper) const {
+        const Ratios& own = _ratios[vertex.index];
+        double sum = 0.0;
+        const auto add = [&](std::uint32_t j, double bend, double twist) {
+            const glm::dvec3 d = _rest[vertex.index] - _binding.joints[j].centre;
+            sum += glm::dot(d, d) * (bend * bend * _bends[j] + twist * twist * _twists[j]);
+        };
+        for (const Influence& a : own) {
+            const auto b = find(helper, a.joint);
+            if (b == helper.end())
+                add(a.joint, double(a.bend), double(a.twist));
+            else if (a.bend != b->bend || a.twist != b->twist)
+                add(a.joint, double(a.bend - b->bend), double(a.twist - b->twist));
+        }
+        for (const Influence& b : helper)
+            if (find(own, b.joint) == own.end()) add(b.joint, double(b.bend), double(b.twist));
+        return sum;
+    }
+    static Ratios::const_iterator find(const Ratios& in, std::uint32_t joint) {
+        return std::find_if(in.begin(), in.end(),
+                            [&](const Influence& ratio) { return ratio.joint == joint; });
+    }
+
+    /// Adds a helper to the nearest ones of a vertex if it is one of them.
+    bool isNear(Vertex& vertex, std::size_t helper) const {
+        const std::pair<double, std::uint32_t> entry{distance(vertex, _targets[helper].ratios),
+                                                     std::uint32_t(helper)};
+        if (vertex.near.size() == kCandidates) {
+            if (vertex.near.back() <= entry) return false;
+            vertex.near.pop_back();
+        }
+        vertex.near.insert(std::upper_bound(vertex.near.begin(), vertex.near.end(), entry), entry);
+        return true;
+    }
+
+    /// Finds the weights of a vertex, and its error.
+    double solve(Vertex& vertex) const {
+        const glm::dvec3& x = _rest[vertex.index];
+        const std::size_t count = vertex.near.size();
+        Gram gram{};
+        std::vector<std::array<glm::dvec3, kCandidates>> away(_poses.size());
+        for (std::size_t p = 0; p < _poses.size(); ++p) {
+            const glm::dvec3 place = _poses[p].product(_ratios[vertex.index]) * x;
+            for (std::size_t i = 0; i < count; ++i) {
+                away[p][i] = _maps[vertex.near[i].second][p] * x - place;
+                for (std::size_t k = 0; k <= i; ++k) gram[i][k] += glm::dot(away[p][i], away[p][k]);
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = i + 1; k < count; ++k) gram[i][k] = gram[k][i];
+        vertex.weights = fewWeights(gram, count, _options.weights);
+        double worst = 0.0;
+        for (const auto& row : away) {
+            glm::dvec3 error(0.0);
+            for (std::size_t i = 0; i < count; ++i) error += vertex.weights[i] * row[i];
+            worst = std::max(worst, glm::length(error));
+        }
+        return vertex.error = worst / vertex.radius;
+    }
+
+    /// Makes helpers of the vertices that are farthest off, a few at a time.
+    void chooseHelpers(const std::vector<Vertex>& blended) {
+        std::vector<Vertex> tried;
+        const std::size_t step = 1 + blended.size() / kMaxTried;
+        std::map<std::uint32_t, bool> bent;
+        for (std::size_t i = 0; i < blended.size(); i += step) {
+            tried.push_back(blended[i]);
+            bent[blended[i].joint] = true;
+            for (std::size_t h = 0; h < _targets.size(); ++h) isNear(tried.back(), h);
+            solve(tried.back());
+        }
+        const std::size_t most = _targets.size() + _options.helpers * bent.size();
+        while (_targets.size() < most) {
+            std::map<std::uint32_t, const Vertex*> worst; // of each joint
+            for (const Vertex& vertex : tried) {
+                const Vertex*& of = worst[vertex.joint];
+                if (of == nullptr || vertex.error > of->error) of = &vertex;
+            }
+            std::vector<const Vertex*> order;
+            for (const auto& entry : worst) order.push_back(entry.second);
+            std::sort(order.begin(), order.end(),
+                      [](const Vertex* a, const Vertex* b) { return a->error > b->error; });
+            const std::size_t first = _targets.size();
+            for (const Vertex* vertex : order) {
+                const bool isBad = vertex->error > 0.5 * order[0]->error;
+                if (!isBad || vertex->error < kNegligible || _targets.size() == most) break;
+                addTarget(helperAt(*vertex));
+            }
+            if (_targets.size() == first) break;
+            for (Vertex& vertex : tried) {
+                bool changed = false;
+                for (std::size_t h = first; h < _targets.size(); ++h)
+                    changed = isNear(vertex, h) || changed;
+                if (changed) solve(vertex);
+            }
+        }
+    }
+
+    HelperJoint helperAt(const Vertex& vertex) const {
+        HelperJoint result{_ratios[vertex.index], vertex.joint, 0};
+        int at = _binding.joints[vertex.joint].parent;
+        for (; at > 0; at = _binding.joints[std::size_t(at)].parent) {
+            const auto ratio = find(result.ratios, std::uint32_t(at));
+            if (ratio != result.ratios.end() && ratio->bend == 1.0f && ratio->twist == 1.0f) break;
+        }
+        result.parent = std::uint32_t(std::max(at, 0));
+        return result;
+    }
+
+    const Binding& _binding;
+    const std::vector<glm::dvec3>& _rest;
+    LinearSkinOptions _options;
+    std::vector<double> _radii;
+    std::vector<PosedJoints> _poses;
+    std::vector<double> _bends, _twists;      ///< mean squared angles of each joint
+    std::vector<Ratios> _ratios;              ///< of each vertex
+    std::vector<HelperJoint> _targets;        ///< the joints themselves, then the helpers
+    std::vector<std::vector<JointMap>> _maps; ///< of each of these, in each pose
+};
+
+} // namespace
+
+LinearSkin fitLinearSkin(const Binding& binding, const std::vector<glm::dvec3>& rest,
+                         const std::vector<osgSkin::Pose>& poses,
+                         const LinearSkinOptions& options) {
+    return Fit(binding, rest, poses, options).run();
+}
+
+} // namespace bake
