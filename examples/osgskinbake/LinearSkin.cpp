@@ -81,8 +81,10 @@ std::vector<double> limbRadii(const Binding& binding, const std::vector<glm::dve
 
 namespace {
 
-constexpr std::size_t kCandidates = 16; ///< nearest helpers that a vertex's weights are chosen from
+constexpr std::size_t kNear = 12; ///< nearest helpers that a vertex's weights are chosen from
+constexpr std::size_t kCandidates = kNear + 8; ///< and others
 constexpr double kNegligible = 0.002;   ///< error in radii of the limb; no helper is made for it
+constexpr double kLeast = 0.002;        ///< smallest weight
 constexpr std::size_t kMaxTried = 6000; ///< vertices for which helpers are chosen
 
 /// Products of distances from a vertex, of up to kCandidates helpers.
@@ -171,7 +173,7 @@ Weights fewWeights(const Gram& gram, std::size_t count, std::size_t most) {
     for (;;) {
         allowed.clear();
         for (std::size_t i = 0; i < count; ++i)
-            if (w[i] > 1e-6) allowed.push_back(i);
+            if (w[i] > kLeast) allowed.push_back(i);
         if (allowed.size() <= most) break;
         // Leave out the one whose loss costs least.
         double least = std::numeric_limits<double>::max();
@@ -187,10 +189,7 @@ Weights fewWeights(const Gram& gram, std::size_t count, std::size_t most) {
             }
         }
     }
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) sum += w[i] > 1e-6 ? w[i] : w[i] = 0.0;
-    for (double& weight : w) weight /= sum;
-    return w;
+    return hullWeights(gram, allowed);
 }
 
 class Fit {
@@ -237,11 +236,11 @@ public:
         for (Vertex& vertex : blended) {
             vertex.near.clear();
             for (std::size_t h = 0; h < _targets.size(); ++h) isNear(vertex, h);
-            result.worst = std::max(result.worst, solve(vertex));
+            solve(vertex);
+            refine(vertex);
+            result.worst = std::max(result.worst, vertex.error);
             std::vector<LinearSkin::Weight>& weights = result.vertices[vertex.index];
-            for (std::size_t i = 0; i < vertex.near.size(); ++i)
-                if (vertex.weights[i] > 0.0)
-                    weights.push_back({vertex.near[i].second, float(vertex.weights[i])});
+            weights = vertex.weights;
             std::sort(weights.begin(), weights.end(),
                       [](const auto& a, const auto& b) { return a.weight > b.weight; });
         }
@@ -256,9 +255,10 @@ private:
         std::uint32_t index = 0;
         std::uint32_t joint = 0; ///< that it follows most evenly in part
         double radius = 1.0;
-        /// The nearest joints and helpers, by squared distance; kCandidates at most.
+        /// The nearest joints and helpers, by squared distance; kNear at most.
         std::vector<std::pair<double, std::uint32_t>> near;
-        Weights weights{};
+        std::vector<std::uint32_t> others; ///< that help nevertheless
+        std::vector<LinearSkin::Weight> weights;
         double error = 0.0; ///< largest over the poses, in radii
     };
 
@@ -340,7 +340,7 @@ private:
     bool isNear(Vertex& vertex, std::size_t helper) const {
         const std::pair<double, std::uint32_t> entry{distance(vertex, _targets[helper].ratios),
                                                      std::uint32_t(helper)};
-        if (vertex.near.size() == kCandidates) {
+        if (vertex.near.size() == kNear) {
             if (vertex.near.back() <= entry) return false;
             vertex.near.pop_back();
         }
@@ -348,29 +348,84 @@ private:
         return true;
     }
 
+    static std::vector<std::uint32_t> candidates(const Vertex& vertex) {
+        std::vector<std::uint32_t> result = vertex.others;
+        for (const auto& entry : vertex.near)
+            if (std::find(result.begin(), result.end(), entry.second) == result.end())
+                result.push_back(entry.second);
+        return result;
+    }
+
     /// Finds the weights of a vertex, and its error.
-    double solve(Vertex& vertex) const {
+    void solve(Vertex& vertex) const {
         const glm::dvec3& x = _rest[vertex.index];
-        const std::size_t count = vertex.near.size();
+        const std::vector<std::uint32_t> helpers = candidates(vertex);
+        const std::size_t count = helpers.size();
         Gram gram{};
         std::vector<std::array<glm::dvec3, kCandidates>> away(_poses.size());
         for (std::size_t p = 0; p < _poses.size(); ++p) {
             const glm::dvec3 place = _poses[p].product(_ratios[vertex.index]) * x;
             for (std::size_t i = 0; i < count; ++i) {
-                away[p][i] = _maps[vertex.near[i].second][p] * x - place;
+                away[p][i] = _maps[helpers[i]][p] * x - place;
                 for (std::size_t k = 0; k <= i; ++k) gram[i][k] += glm::dot(away[p][i], away[p][k]);
             }
         }
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t k = i + 1; k < count; ++k) gram[i][k] = gram[k][i];
-        vertex.weights = fewWeights(gram, count, _options.weights);
+        const Weights weights = fewWeights(gram, count, _options.weights);
+        vertex.weights.clear();
+        for (std::size_t i = 0; i < count; ++i)
+            if (weights[i] > 0.0) vertex.weights.push_back({helpers[i], float(weights[i])});
         double worst = 0.0;
         for (const auto& row : away) {
             glm::dvec3 error(0.0);
-            for (std::size_t i = 0; i < count; ++i) error += vertex.weights[i] * row[i];
+            for (std::size_t i = 0; i < count; ++i) error += weights[i] * row[i];
             worst = std::max(worst, glm::length(error));
         }
-        return vertex.error = worst / vertex.radius;
+        vertex.error = worst / vertex.radius;
+    }
+
+    /// Looks among all helpers for some that improve a vertex, although others are nearer.
+    void refine(Vertex& vertex) const {
+        const glm::dvec3& x = _rest[vertex.index];
+        std::vector<glm::dvec3> places;
+        for (const PosedJoints& pose : _poses)
+            places.push_back(pose.product(_ratios[vertex.index]) * x);
+        while (vertex.error > kNegligible) {
+            std::vector<glm::dvec3> errors;
+            double squared = 0.0;
+            for (std::size_t p = 0; p < _poses.size(); ++p) {
+                glm::dvec3 error = -places[p];
+                for (const LinearSkin::Weight& w : vertex.weights)
+                    error += double(w.weight) * (_maps[w.joint][p] * x);
+                errors.push_back(error);
+                squared += glm::dot(error, error);
+            }
+            double most = 1e-3 * std::sqrt(squared); // by how much the error may fall
+            std::size_t best = _targets.size();
+            const std::vector<std::uint32_t> known = candidates(vertex);
+            for (std::size_t h = 0; h < _targets.size(); ++h) {
+                double slope = 0.0, length = 0.0;
+                for (std::size_t p = 0; p < _poses.size(); ++p) {
+                    const glm::dvec3 step = places[p] + errors[p] - _maps[h][p] * x;
+                    slope += glm::dot(step, errors[p]);
+                    length += glm::dot(step, step);
+                }
+                if (slope <= most * std::sqrt(length)) continue;
+                // Joints of other limbs may happen to move alike in some poses.
+                if (distance(vertex, _targets[h].ratios) > 4.0 * vertex.near.back().first) continue;
+                if (std::find(known.begin(), known.end(), h) != known.end()) continue;
+                most = slope / std::sqrt(length);
+                best = h;
+            }
+            if (best == _targets.size()) return;
+            if (known.size() == kCandidates || vertex.others.size() == kCandidates - kNear) return;
+            Vertex next = vertex;
+            next.others.push_back(std::uint32_t(best));
+            solve(next);
+            if (next.error > vertex.error) return;
+            vertex = std::move(next);
+        }
     }
 
     /// Makes helpers of the vertices that are farthest off, a few at a time.
@@ -386,21 +441,28 @@ private:
         }
         const std::size_t most = _targets.size() + _options.helpers * bent.size();
         while (_targets.size() < most) {
-            std::map<std::uint32_t, const Vertex*> worst; // of each joint
-            for (const Vertex& vertex : tried) {
-                const Vertex*& of = worst[vertex.joint];
+            std::map<std::uint32_t, Vertex*> worst; // of each joint
+            for (Vertex& vertex : tried) {
+                Vertex*& of = worst[vertex.joint];
                 if (of == nullptr || vertex.error > of->error) of = &vertex;
             }
-            std::vector<const Vertex*> order;
+            std::vector<Vertex*> order;
             for (const auto& entry : worst) order.push_back(entry.second);
             std::sort(order.begin(), order.end(),
                       [](const Vertex* a, const Vertex* b) { return a->error > b->error; });
+            const double bad = std::max(0.5 * order[0]->error, kNegligible);
             const std::size_t first = _targets.size();
-            for (const Vertex* vertex : order) {
-                const bool isBad = vertex->error > 0.5 * order[0]->error;
-                if (!isBad || vertex->error < kNegligible || _targets.size() == most) break;
-                addTarget(helperAt(*vertex));
+            bool refined = false;
+            for (Vertex* vertex : order) {
+                const double before = vertex->error;
+                if (before <= bad || _targets.size() == most) break;
+                refine(*vertex);
+                if (vertex->error < 0.8 * before)
+                    refined = true;
+                else
+                    addTarget(helperAt(*vertex));
             }
+            if (_targets.size() == first && refined) continue;
             if (_targets.size() == first) break;
             for (Vertex& vertex : tried) {
                 bool changed = false;
