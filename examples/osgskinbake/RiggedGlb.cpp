@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -173,7 +174,7 @@ void addMoves(Shape& shape, const Correctives& from, std::uint32_t corrective, s
                 if (from.entries[i].joint != corrective) continue;
                 const std::size_t at = from.entries[i].firstShare + 3 * mode;
                 const glm::dvec3 position = share(from.shares, at);
-                if (glm::length(position) < 1e-3 * scale) continue;
+                if (glm::length(position) < 1e-3 * std::abs(scale)) continue;
                 moves.vertices.push_back(v);
                 moves.positions.push_back(position);
                 moves.normals.push_back(from.hasNormals()
@@ -186,8 +187,25 @@ void addMoves(Shape& shape, const Correctives& from, std::uint32_t corrective, s
     }
 }
 
-/// The correctives' modes as shapes, with weights between -1 and 1. Those that no clip uses are
-/// left out.
+/// The weights of a joint's correctives, or an input's, in a pose.
+std::array<double, CorrectiveJoint::kMaxModes> weightsIn(const osgSkin::Pose& pose,
+                                                         const CorrectiveJoint& joint,
+                                                         const osgSkin::Binding& binding) {
+    glm::dvec2 xy(0.0);
+    if (joint.basis == CorrectiveJoint::Basis::Input) {
+        xy.x = double(pose.input(joint.joint));
+    } else {
+        const osgSkin::BendTwist split = pose.transform(joint.joint).split;
+        xy = joint.coordinates(split.bendAxis, split.bendAngle,
+                               binding.joints[joint.joint].twistAxis);
+    }
+    std::array<double, CorrectiveJoint::kMaxModes> weights{};
+    joint.weights(xy, weights.data());
+    return weights;
+}
+
+/// The modes of the correctives as shapes. Many engines clamp weights to 0..1, so a mode becomes
+/// two shapes, one for its negative weights; those that no clip uses are left out.
 std::vector<Shape> correctiveShapes(const Character& character,
                                     const std::vector<Surface>& surfaces,
                                     const std::vector<RiggedClip>& clips) {
@@ -197,36 +215,29 @@ std::vector<Shape> correctiveShapes(const Character& character,
     std::vector<Shape> shapes;
     for (std::uint32_t c = 0; !from.empty() && c < from.joints.size(); ++c) {
         const CorrectiveJoint& joint = from.joints[c];
-        const bool isInput = joint.basis == CorrectiveJoint::Basis::Input;
-        std::vector<Shape> modes(joint.modes);
-        std::vector<double> most(joint.modes, 0.0);
+        std::vector<Shape> modes(2 * joint.modes);
+        std::vector<double> most(modes.size(), 0.0);
         for (const RiggedClip& clip : clips) {
             for (Shape& mode : modes) mode.weights.emplace_back();
             for (const osgSkin::Pose& pose : clip.poses) {
-                glm::dvec2 xy(0.0);
-                if (isInput) {
-                    xy.x = double(pose.input(joint.joint));
-                } else {
-                    const osgSkin::BendTwist split = pose.transform(joint.joint).split;
-                    xy = joint.coordinates(split.bendAxis, split.bendAngle,
-                                           binding.joints[joint.joint].twistAxis);
-                }
-                std::array<double, CorrectiveJoint::kMaxModes> beta{};
-                joint.weights(xy, beta.data());
-                for (std::size_t k = 0; k < joint.modes; ++k) {
-                    modes[k].weights.back().push_back(float(beta[k]));
-                    most[k] = std::max(most[k], std::abs(beta[k]));
+                const auto weights = weightsIn(pose, joint, binding);
+                for (std::size_t k = 0; k < modes.size(); ++k) {
+                    const double weight = k % 2 == 0 ? weights[k / 2] : -weights[k / 2];
+                    modes[k].weights.back().push_back(float(std::max(weight, 0.0)));
+                    most[k] = std::max(most[k], weight);
                 }
             }
         }
-        for (std::size_t k = 0; k < joint.modes; ++k) {
+        std::size_t number = 0;
+        for (std::size_t k = 0; k < modes.size(); ++k) {
             if (most[k] < negligible) continue; // vectors are about 1 long at most
+            const bool isInput = joint.basis == CorrectiveJoint::Basis::Input;
             modes[k].name =
                 (isInput ? from.inputs[joint.joint] : binding.joints[joint.joint].name) +
-                "_shape_" + std::to_string(k + 1);
+                "_shape_" + std::to_string(++number);
             for (std::vector<float>& weights : modes[k].weights)
                 for (float& weight : weights) weight = float(double(weight) / most[k]);
-            addMoves(modes[k], from, c, k, most[k], surfaces);
+            addMoves(modes[k], from, c, k / 2, k % 2 == 0 ? most[k] : -most[k], surfaces);
             shapes.push_back(std::move(modes[k]));
         }
     }
@@ -236,6 +247,7 @@ std::vector<Shape> correctiveShapes(const Character& character,
 /// The keys of one property of a node in a clip.
 class Keys {
 public:
+    /// \param atRest the property in the rest pose
     explicit Keys(std::vector<double> atRest) : _atRest(std::move(atRest)) {}
 
     void add(const double* numbers) { _keys.insert(_keys.end(), numbers, numbers + width()); }
@@ -461,13 +473,18 @@ private:
             std::vector<float> times;
             for (std::size_t f = 0; f < clip.poses.size(); ++f)
                 times.push_back(float(double(f) * clip.seconds));
-            const std::size_t all = _buffer.addTimes(times), one = _buffer.addTimes({0.0f});
+            std::map<bool, std::size_t> inputs; // by whether there is one key alone
+            const auto input = [&](bool isOne) {
+                const auto [entry, isNew] = inputs.emplace(isOne, 0);
+                if (isNew) entry->second = _buffer.addTimes(isOne ? std::vector{0.0f} : times);
+                return entry->second;
+            };
             nlohmann::json samplers = nlohmann::json::array(), channels = nlohmann::json::array();
-            const auto add = [&](std::size_t node, const char* path, std::size_t input,
+            const auto add = [&](std::size_t node, const char* path, bool isOne,
                                  std::size_t output) {
                 channels.push_back(
                     {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
-                samplers.push_back({{"input", input}, {"output", output}});
+                samplers.push_back({{"input", input(isOne)}, {"output", output}});
             };
             const std::vector<NodeKeys> keys = keysOf(clip);
             for (std::size_t n = 0; n < nodeCount(); ++n)
@@ -475,13 +492,13 @@ private:
                     if (!moves[n][k]) continue;
                     constexpr std::array<const char*, 3> kPaths{"rotation", "translation", "scale"};
                     const std::vector<float> numbers = keys[n][k].numbers();
-                    add(n, kPaths[k], numbers.size() > keys[n][k].width() ? all : one,
+                    add(n, kPaths[k], numbers.size() == keys[n][k].width(),
                         _buffer.addFloats(numbers, k == 0 ? "VEC4" : "VEC3", keys[n][k].width()));
                 }
             std::vector<float> weights;
             for (std::size_t f = 0; f < clip.poses.size(); ++f)
                 for (const Shape& shape : _shapes) weights.push_back(shape.weights[c][f]);
-            if (!weights.empty()) add(meshNode, "weights", all, _buffer.addNumbers(weights));
+            if (!weights.empty()) add(meshNode, "weights", false, _buffer.addNumbers(weights));
             if (channels.empty()) continue;
             result.push_back({{"name", clip.name}, {"samplers", samplers}, {"channels", channels}});
         }
