@@ -244,8 +244,7 @@ public:
             std::sort(weights.begin(), weights.end(),
                       [](const auto& a, const auto& b) { return a.weight > b.weight; });
         }
-        for (std::size_t h = _binding.joints.size(); h < _targets.size(); ++h)
-            result.helpers.push_back(_targets[h]);
+        keepUsedHelpers(result);
         return result;
     }
 
@@ -261,6 +260,20 @@ private:
         std::vector<LinearSkin::Weight> weights;
         double error = 0.0; ///< largest over the poses, in radii
     };
+
+    /// Adds the helpers to the result, without those that no vertex needs in the end.
+    void keepUsedHelpers(LinearSkin& result) const {
+        const std::size_t joints = _binding.joints.size();
+        std::map<std::uint32_t, std::uint32_t> numbers;
+        for (std::vector<LinearSkin::Weight>& weights : result.vertices)
+            for (LinearSkin::Weight& weight : weights) {
+                if (weight.joint < joints) continue;
+                const auto [entry, isNew] =
+                    numbers.emplace(weight.joint, std::uint32_t(joints + result.helpers.size()));
+                if (isNew) result.helpers.push_back(_targets[weight.joint]);
+                weight.joint = entry->second;
+            }
+    }
 
     void orderInfluences() {
         const std::vector<std::uint32_t> places =
@@ -356,7 +369,7 @@ private:
         return result;
     }
 
-    /// Finds the weights of a vertex, and its error.
+    /// Finds the weights of a vertex, and its error; keeps those that it has if they are better.
     void solve(Vertex& vertex) const {
         const glm::dvec3& x = _rest[vertex.index];
         const std::vector<std::uint32_t> helpers = candidates(vertex);
@@ -373,16 +386,17 @@ private:
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t k = i + 1; k < count; ++k) gram[i][k] = gram[k][i];
         const Weights weights = fewWeights(gram, count, _options.weights);
-        vertex.weights.clear();
-        for (std::size_t i = 0; i < count; ++i)
-            if (weights[i] > 0.0) vertex.weights.push_back({helpers[i], float(weights[i])});
         double worst = 0.0;
         for (const auto& row : away) {
             glm::dvec3 error(0.0);
             for (std::size_t i = 0; i < count; ++i) error += weights[i] * row[i];
-            worst = std::max(worst, glm::length(error));
+            worst = std::max(worst, glm::length(error) / vertex.radius);
         }
-        vertex.error = worst / vertex.radius;
+        if (!vertex.weights.empty() && worst >= vertex.error) return;
+        vertex.error = worst;
+        vertex.weights.clear();
+        for (std::size_t i = 0; i < count; ++i)
+            if (weights[i] > 0.0) vertex.weights.push_back({helpers[i], float(weights[i])});
     }
 
     /// Looks among all helpers for some that improve a vertex, although others are nearer.
@@ -423,34 +437,34 @@ private:
             Vertex next = vertex;
             next.others.push_back(std::uint32_t(best));
             solve(next);
-            if (next.error > vertex.error) return;
+            if (next.error >= vertex.error) return;
             vertex = std::move(next);
         }
     }
 
     /// Makes helpers of the vertices that are farthest off, a few at a time.
-    void chooseHelpers(const std::vector<Vertex>& blended) {
-        std::vector<Vertex> tried;
+    void chooseHelpers(std::vector<Vertex>& blended) {
+        std::vector<Vertex*> tried;
         const std::size_t step = 1 + blended.size() / kMaxTried;
         std::map<std::uint32_t, bool> bent;
         for (std::size_t i = 0; i < blended.size(); i += step) {
-            tried.push_back(blended[i]);
+            tried.push_back(&blended[i]);
             bent[blended[i].joint] = true;
-            for (std::size_t h = 0; h < _targets.size(); ++h) isNear(tried.back(), h);
-            solve(tried.back());
+            for (std::size_t h = 0; h < _targets.size(); ++h) isNear(blended[i], h);
+            solve(blended[i]);
         }
         const std::size_t most = _targets.size() + _options.helpers * bent.size();
         while (_targets.size() < most) {
             std::map<std::uint32_t, Vertex*> worst; // of each joint
-            for (Vertex& vertex : tried) {
-                Vertex*& of = worst[vertex.joint];
-                if (of == nullptr || vertex.error > of->error) of = &vertex;
+            for (Vertex* vertex : tried) {
+                Vertex*& of = worst[vertex->joint];
+                if (of == nullptr || vertex->error > of->error) of = vertex;
             }
             std::vector<Vertex*> order;
             for (const auto& entry : worst) order.push_back(entry.second);
             std::sort(order.begin(), order.end(),
                       [](const Vertex* a, const Vertex* b) { return a->error > b->error; });
-            const double bad = std::max(0.5 * order[0]->error, kNegligible);
+            const double bad = std::max(0.75 * order[0]->error, kNegligible);
             const std::size_t first = _targets.size();
             bool refined = false;
             for (Vertex* vertex : order) {
@@ -464,11 +478,11 @@ private:
             }
             if (_targets.size() == first && refined) continue;
             if (_targets.size() == first) break;
-            for (Vertex& vertex : tried) {
+            for (Vertex* vertex : tried) {
                 bool changed = false;
                 for (std::size_t h = first; h < _targets.size(); ++h)
-                    changed = isNear(vertex, h) || changed;
-                if (changed) solve(vertex);
+                    changed = isNear(*vertex, h) || changed;
+                if (changed) solve(*vertex);
             }
         }
     }

@@ -5,7 +5,9 @@
 #include "Surface.h"
 
 #include <osgSkin/Correctives>
+#include <osgSkin/DeformableSkin>
 #include <osgSkin/MorphTargets>
+#include <osgSkin/RigidPart>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -123,9 +125,13 @@ struct Shape {
 /// A character's morph targets as the drawables have them.
 std::vector<Shape> morphShapes(const Character& character, const std::vector<Surface>& surfaces,
                                const std::vector<RiggedClip>& clips) {
-    std::vector<const osgSkin::MeshPart*> pieces;
-    for (const auto& skin : character.skin.skins) pieces.push_back(&skin.part);
-    for (const auto& rigid : character.skin.rigids) pieces.push_back(&rigid.part);
+    std::vector<const osgSkin::MorphTargets*> pieces;
+    for (const auto& skin : character.skin.skins)
+        pieces.push_back(skin.drawable->getMorphTargets());
+    for (const auto& rigid : character.skin.rigids) {
+        const auto* skin = dynamic_cast<const osgSkin::DeformableSkin*>(rigid.node->getChild(0));
+        pieces.push_back(skin ? skin->getMorphTargets() : nullptr);
+    }
     std::vector<Shape> shapes;
     for (const std::string& name : character.morphs()) {
         Shape shape;
@@ -139,18 +145,19 @@ std::vector<Shape> morphShapes(const Character& character, const std::vector<Sur
             Shape::Moves moves;
             for (std::uint32_t v = 0; v < surface.drawn.size(); ++v) {
                 const Surface::Drawn& at = surface.drawn[v];
-                for (const osgSkin::MorphTarget& target : pieces[at.piece]->morphs) {
-                    if (target.name != name) continue;
-                    shape.initial = target.initial;
-                    const auto found =
-                        std::lower_bound(target.vertices.begin(), target.vertices.end(), at.vertex);
-                    if (found == target.vertices.end() || *found != at.vertex) continue;
-                    const auto i = std::size_t(found - target.vertices.begin());
-                    moves.vertices.push_back(v);
-                    moves.positions.emplace_back(target.positions[i]);
-                    moves.normals.emplace_back(target.normals.empty() ? glm::vec3(0.0f)
-                                                                      : target.normals[i]);
-                }
+                const osgSkin::MorphTargets* of = pieces[at.piece];
+                const std::size_t t = of ? of->find(name) : 0;
+                if (!of || t == of->targets().size()) continue;
+                const osgSkin::MorphTarget& target = of->targets()[t];
+                shape.initial = target.initial;
+                const auto found =
+                    std::lower_bound(target.vertices.begin(), target.vertices.end(), at.vertex);
+                if (found == target.vertices.end() || *found != at.vertex) continue;
+                const auto i = std::size_t(found - target.vertices.begin());
+                moves.vertices.push_back(v);
+                moves.positions.emplace_back(target.positions[i]);
+                moves.normals.emplace_back(target.normals.empty() ? glm::vec3(0.0f)
+                                                                  : target.normals[i]);
             }
             shape.surfaces.push_back(std::move(moves));
         }

@@ -19,8 +19,8 @@
 
 namespace test {
 
-/// Reads files with embedded buffers (.glb, or base64 in the text). Interpolation, matrices and
-/// skins follow the specification; sparse accessors are not supported.
+/// Reads files with embedded buffers (.glb, or base64 in the text). Interpolation, matrices, skins
+/// and morph targets follow the specification; weights of targets are interpolated linearly.
 class GltfReference {
 public:
     explicit GltfReference(const std::string& file) {
@@ -47,18 +47,18 @@ public:
         const std::size_t width = type == "SCALAR" ? 1
                                   : type == "MAT4" ? 16
                                                    : static_cast<std::size_t>(type[3] - '0');
-        const nlohmann::json& view = json["bufferViews"].at(a["bufferView"].get<std::size_t>());
-        const std::string& bytes = _buffers.at(view["buffer"].get<std::size_t>());
-        const int kind = a["componentType"];
-        const std::size_t size = kind < 5122 ? 1 : kind < 5124 ? 2 : 4;
-        const std::size_t stride = view.value("byteStride", width * size);
-        const std::size_t begin =
-            view.value("byteOffset", std::size_t(0)) + a.value("byteOffset", std::size_t(0));
-        std::vector<double> result;
-        for (std::size_t i = 0; i < a["count"].get<std::size_t>(); ++i)
-            for (std::size_t k = 0; k < width; ++k)
-                result.push_back(component(bytes, begin + i * stride + k * size, kind,
-                                           a.value("normalized", false)));
+        const std::size_t count = a["count"];
+        std::vector<double> result(width * count, 0.0);
+        if (a.contains("bufferView")) result = numbers(a, a["componentType"], width, count);
+        if (!a.contains("sparse")) return result;
+        const nlohmann::json& sparse = a["sparse"];
+        const std::size_t changed = sparse["count"];
+        const std::vector<double> at =
+            numbers(sparse["indices"], sparse["indices"]["componentType"], 1, changed);
+        const std::vector<double> values =
+            numbers(sparse["values"], a["componentType"], width, changed);
+        for (std::size_t i = 0; i < changed; ++i)
+            std::copy_n(&values[width * i], width, &result[width * std::size_t(at[i])]);
         return result;
     }
 
@@ -84,12 +84,22 @@ public:
         return world;
     }
 
+    /// The vertices as the accessors have them, in the order of verticesAt().
+    std::vector<glm::dvec3> restVertices() {
+        if (_pieces.empty()) findPieces();
+        std::vector<glm::dvec3> result;
+        for (const Piece& piece : _pieces)
+            result.insert(result.end(), piece.positions.begin(), piece.positions.end());
+        return result;
+    }
+
     /// All vertices, by primitive, in depth-first node order.
     std::vector<glm::dvec3> verticesAt(int animation, double seconds) {
         const std::vector<glm::dmat4> world = nodesAt(animation, seconds);
         if (_pieces.empty()) findPieces();
         std::vector<glm::dvec3> result;
         for (const Piece& piece : _pieces) {
+            const std::vector<double> weights = weightsAt(piece.node, animation, seconds);
             std::vector<glm::dmat4> skinning;
             for (std::size_t j = 0; j < piece.joints.size(); ++j)
                 skinning.push_back(world[piece.joints[j]] * piece.inverseBind[j]);
@@ -101,7 +111,10 @@ public:
                     for (const auto& [joint, weight] : piece.weights[v])
                         matrix += skinning[joint] * (weight / sum);
                 }
-                result.emplace_back(matrix * glm::dvec4(piece.positions[v], 1.0));
+                glm::dvec3 position = piece.positions[v];
+                for (std::size_t t = 0; t < weights.size(); ++t)
+                    position += weights[t] * piece.targets[t][v];
+                result.emplace_back(matrix * glm::dvec4(position, 1.0));
             }
         }
         return result;
@@ -135,7 +148,8 @@ private:
     struct Piece {
         std::size_t node = 0;
         std::vector<glm::dvec3> positions;
-        std::vector<std::size_t> joints; ///< nodes; empty without a skin
+        std::vector<std::vector<glm::dvec3>> targets; ///< offsets
+        std::vector<std::size_t> joints;              ///< nodes; empty without a skin
         std::vector<glm::dmat4> inverseBind;
         std::vector<std::vector<std::pair<std::size_t, double>>> weights;
     };
@@ -164,6 +178,56 @@ private:
         default:
             return double(number<float>(b, at));
         }
+    }
+
+    /// The numbers of an accessor, or of a part of a sparse one.
+    std::vector<double> numbers(const nlohmann::json& a, int kind, std::size_t width,
+                                std::size_t count) const {
+        const nlohmann::json& view = json["bufferViews"].at(a["bufferView"].get<std::size_t>());
+        const std::string& bytes = _buffers.at(view["buffer"].get<std::size_t>());
+        const std::size_t size = kind < 5122 ? 1 : kind < 5124 ? 2 : 4;
+        const std::size_t stride = view.value("byteStride", width * size);
+        const std::size_t begin =
+            view.value("byteOffset", std::size_t(0)) + a.value("byteOffset", std::size_t(0));
+        std::vector<double> result;
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < width; ++k)
+                result.push_back(component(bytes, begin + i * stride + k * size, kind,
+                                           a.value("normalized", false)));
+        return result;
+    }
+
+    std::vector<glm::dvec3> vectors(std::size_t index) const {
+        const std::vector<double> n = accessor(index);
+        std::vector<glm::dvec3> result;
+        for (std::size_t i = 0; i < n.size(); i += 3) result.emplace_back(n[i], n[i + 1], n[i + 2]);
+        return result;
+    }
+
+    /// The weights of the morph targets of a node's mesh.
+    std::vector<double> weightsAt(std::size_t node, int animation, double seconds) const {
+        const nlohmann::json& mesh =
+            json["meshes"].at(json["nodes"][node]["mesh"].get<std::size_t>());
+        const std::size_t count =
+            mesh["primitives"][0].value("targets", nlohmann::json::array()).size();
+        std::vector<double> result = mesh.value("weights", std::vector<double>(count, 0.0));
+        for (const nlohmann::json& channel :
+             animation < 0 ? nlohmann::json::array()
+                           : json["animations"].at(std::size_t(animation))["channels"]) {
+            const nlohmann::json& target = channel["target"];
+            if (target["path"] != "weights" || target["node"] != node) continue;
+            const nlohmann::json& sampler = samplerOf(std::size_t(animation), channel);
+            const std::vector<double> times = accessor(sampler["input"]);
+            const std::vector<double> values = accessor(sampler["output"]);
+            const double time = std::clamp(seconds, times.front(), times.back());
+            std::size_t k = 0;
+            while (k + 2 < times.size() && times[k + 1] <= time) ++k;
+            const std::size_t next = std::min(k + 1, times.size() - 1);
+            const double u = next > k ? (time - times[k]) / (times[next] - times[k]) : 0.0;
+            for (std::size_t t = 0; t < count; ++t)
+                result[t] = (1.0 - u) * values[k * count + t] + u * values[next * count + t];
+        }
+        return result;
     }
 
     static std::string decoded(const std::string& text) {
@@ -286,9 +350,9 @@ private:
         const nlohmann::json &node = json["nodes"][index], &attributes = primitive["attributes"];
         Piece piece;
         piece.node = index;
-        const std::vector<double> p = accessor(attributes["POSITION"]);
-        for (std::size_t i = 0; i < p.size(); i += 3)
-            piece.positions.emplace_back(p[i], p[i + 1], p[i + 2]);
+        piece.positions = vectors(attributes["POSITION"]);
+        for (const nlohmann::json& target : primitive.value("targets", nlohmann::json::array()))
+            piece.targets.push_back(vectors(target["POSITION"]));
         if (node.contains("skin")) {
             const nlohmann::json& skin = json["skins"].at(node["skin"].get<std::size_t>());
             piece.joints = skin["joints"].get<std::vector<std::size_t>>();
