@@ -84,15 +84,6 @@ public:
         return world;
     }
 
-    /// The vertices as the accessors have them, in the order of verticesAt().
-    std::vector<glm::dvec3> restVertices() {
-        if (_pieces.empty()) findPieces();
-        std::vector<glm::dvec3> result;
-        for (const Piece& piece : _pieces)
-            result.insert(result.end(), piece.positions.begin(), piece.positions.end());
-        return result;
-    }
-
     /// All vertices, by primitive, in depth-first node order.
     std::vector<glm::dvec3> verticesAt(int animation, double seconds) {
         const std::vector<glm::dmat4> world = nodesAt(animation, seconds);

@@ -84,9 +84,9 @@ RiggedComparison compareRigged(const std::string& rigged, const std::string& cli
         if (animations[a]["name"] == clip) animation = int(a);
     EXPECT_GE(animation, 0) << clip;
     const auto rest = test::readObjVertices(folder + "/rest.obj");
-    // Vertices of the mesh at the place of each vertex of the file; those of one place move alike.
+    // The mesh's vertices at the place of each vertex of the file at rest.
     std::vector<std::vector<std::size_t>> sources;
-    for (const glm::dvec3& x : reference.restVertices()) {
+    for (const glm::dvec3& x : reference.verticesAt(-1, 0.0)) {
         sources.emplace_back();
         for (std::size_t v = 0; v < rest.size(); ++v)
             if (glm::distance(rest[v], x) < 1e-6) sources.back().push_back(v);
@@ -170,7 +170,7 @@ TEST_P(RiggedCharacter, IsFarOffWithoutHelpers) {
 
 TEST_P(RiggedCharacter, IsNearerWithMoreHelpersAndWeights) {
     const std::string clip = " --motion " + GetParam().clip;
-    EXPECT_LE(error(" --helpers 16 --weights 8" + clip), 0.005);
+    EXPECT_LE(error(" --helpers 16 --weights 8" + clip), 0.006);
     const nlohmann::json json = GltfReference(folder + "/rigged.glb").json;
     EXPECT_EQ(json["meshes"][0]["primitives"][0]["attributes"].count("WEIGHTS_1"), 1u);
 }
