@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace bake {
@@ -206,16 +207,21 @@ public:
                 _bends[j] += pose[j].split.bendAngle * pose[j].split.bendAngle / count;
                 _twists[j] += pose[j].split.twistAngle * pose[j].split.twistAngle / count;
             }
-        orderInfluences();
         const std::vector<std::uint32_t> places =
             osgSkin::productPlaces(osgSkin::productOrder(binding.joints));
+        const auto inOrder = [&](const Influence& a, const Influence& b) {
+            return places[a.joint] < places[b.joint];
+        };
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            _ratios.emplace_back(binding.influences.begin() + binding.firstInfluence[v],
+                                 binding.influences.begin() + binding.firstInfluence[v + 1]);
+            std::sort(_ratios[v].begin(), _ratios[v].end(), inOrder);
+        }
         for (std::uint32_t j = 0; j < binding.joints.size(); ++j) {
             Ratios chain;
             for (int at = int(j); at >= 0; at = binding.joints[std::size_t(at)].parent)
                 chain.push_back({std::uint32_t(at), 1.0f, 1.0f});
-            std::sort(chain.begin(), chain.end(), [&](const auto& a, const auto& b) {
-                return places[a.joint] < places[b.joint];
-            });
+            std::sort(chain.begin(), chain.end(), inOrder);
             addTarget({chain, j, j});
         }
     }
@@ -224,26 +230,30 @@ public:
         LinearSkin result;
         result.vertices.resize(_rest.size());
         std::vector<Vertex> blended;
+        // Copies of a vertex, as along a seam of its texture, have the same weights.
+        std::map<std::vector<double>, std::size_t> known;
+        std::vector<std::pair<std::uint32_t, std::size_t>> copies;
         for (std::uint32_t v = 0; v < _rest.size(); ++v) {
-            const Vertex vertex = vertexOf(v);
             const std::size_t joint = wholeJoint(v);
-            if (joint < _binding.joints.size())
+            if (joint < _binding.joints.size()) {
                 result.vertices[v] = {{std::uint32_t(joint), 1.0f}};
-            else
-                blended.push_back(vertex);
+                continue;
+            }
+            const auto [entry, isNew] = known.emplace(keyOf(v), blended.size());
+            if (isNew) blended.push_back(vertexOf(v));
+            copies.emplace_back(v, entry->second);
         }
-        if (!_poses.empty()) chooseHelpers(blended);
+        chooseHelpers(blended);
         for (Vertex& vertex : blended) {
-            vertex.near.clear();
-            for (std::size_t h = 0; h < _targets.size(); ++h) isNear(vertex, h);
+            if (vertex.candidates.empty())
+                for (std::size_t h = 0; h < _targets.size(); ++h) offer(vertex, h);
             solve(vertex);
             refine(vertex);
             result.worst = std::max(result.worst, vertex.error);
-            std::vector<LinearSkin::Weight>& weights = result.vertices[vertex.index];
-            weights = vertex.weights;
-            std::sort(weights.begin(), weights.end(),
+            std::sort(vertex.weights.begin(), vertex.weights.end(),
                       [](const auto& a, const auto& b) { return a.weight > b.weight; });
         }
+        for (const auto& [v, i] : copies) result.vertices[v] = blended[i].weights;
         keepUsedHelpers(result);
         return result;
     }
@@ -254,12 +264,21 @@ private:
         std::uint32_t index = 0;
         std::uint32_t joint = 0; ///< that it follows most evenly in part
         double radius = 1.0;
-        /// The nearest joints and helpers, by squared distance; kNear at most.
-        std::vector<std::pair<double, std::uint32_t>> near;
-        std::vector<std::uint32_t> others; ///< that help nevertheless
+        /// The nearest joints and helpers by squared distance, kNear at most, and some others.
+        std::vector<std::pair<double, std::uint32_t>> candidates;
         std::vector<LinearSkin::Weight> weights;
         double error = 0.0; ///< largest over the poses, in radii
     };
+
+    /// Where a vertex is at rest, and its ratios.
+    std::vector<double> keyOf(std::uint32_t v) const {
+        std::vector<double> key{_rest[v].x, _rest[v].y, _rest[v].z};
+        for (const Influence& ratio : _ratios[v])
+            for (const double number :
+                 {double(ratio.joint), double(ratio.bend), double(ratio.twist)})
+                key.push_back(number);
+        return key;
+    }
 
     /// Adds the helpers to the result, without those that no vertex needs in the end.
     void keepUsedHelpers(LinearSkin& result) const {
@@ -273,20 +292,6 @@ private:
                 if (isNew) result.helpers.push_back(_targets[weight.joint]);
                 weight.joint = entry->second;
             }
-    }
-
-    void orderInfluences() {
-        const std::vector<std::uint32_t> places =
-            osgSkin::productPlaces(osgSkin::productOrder(_binding.joints));
-        _ratios.resize(_rest.size());
-        for (std::size_t v = 0; v < _rest.size(); ++v) {
-            Ratios& ratios = _ratios[v];
-            ratios.assign(_binding.influences.begin() + _binding.firstInfluence[v],
-                          _binding.influences.begin() + _binding.firstInfluence[v + 1]);
-            std::sort(ratios.begin(), ratios.end(), [&](const auto& a, const auto& b) {
-                return places[a.joint] < places[b.joint];
-            });
-        }
     }
 
     void addTarget(HelperJoint helper) {
@@ -349,37 +354,31 @@ private:
                             [&](const Influence& ratio) { return ratio.joint == joint; });
     }
 
-    /// Adds a helper to the nearest ones of a vertex if it is one of them.
-    bool isNear(Vertex& vertex, std::size_t helper) const {
+    /// Makes a helper a candidate of a vertex if it is one of the nearest.
+    bool offer(Vertex& vertex, std::size_t helper) const {
         const std::pair<double, std::uint32_t> entry{distance(vertex, _targets[helper].ratios),
                                                      std::uint32_t(helper)};
-        if (vertex.near.size() == kNear) {
-            if (vertex.near.back() <= entry) return false;
-            vertex.near.pop_back();
+        auto& candidates = vertex.candidates;
+        const auto near = std::ptrdiff_t(std::min(candidates.size(), kNear - 1));
+        if (candidates.size() >= kNear) {
+            if (candidates[kNear - 1] <= entry) return false;
+            candidates.erase(candidates.begin() + near);
         }
-        vertex.near.insert(std::upper_bound(vertex.near.begin(), vertex.near.end(), entry), entry);
+        const auto begin = candidates.begin();
+        candidates.insert(std::upper_bound(begin, begin + near, entry), entry);
         return true;
-    }
-
-    static std::vector<std::uint32_t> candidates(const Vertex& vertex) {
-        std::vector<std::uint32_t> result = vertex.others;
-        for (const auto& entry : vertex.near)
-            if (std::find(result.begin(), result.end(), entry.second) == result.end())
-                result.push_back(entry.second);
-        return result;
     }
 
     /// Finds the weights of a vertex, and its error; keeps those that it has if they are better.
     void solve(Vertex& vertex) const {
         const glm::dvec3& x = _rest[vertex.index];
-        const std::vector<std::uint32_t> helpers = candidates(vertex);
-        const std::size_t count = helpers.size();
+        const std::size_t count = vertex.candidates.size();
         Gram gram{};
         std::vector<std::array<glm::dvec3, kCandidates>> away(_poses.size());
         for (std::size_t p = 0; p < _poses.size(); ++p) {
             const glm::dvec3 place = _poses[p].product(_ratios[vertex.index]) * x;
             for (std::size_t i = 0; i < count; ++i) {
-                away[p][i] = _maps[helpers[i]][p] * x - place;
+                away[p][i] = _maps[vertex.candidates[i].second][p] * x - place;
                 for (std::size_t k = 0; k <= i; ++k) gram[i][k] += glm::dot(away[p][i], away[p][k]);
             }
         }
@@ -396,7 +395,8 @@ private:
         vertex.error = worst;
         vertex.weights.clear();
         for (std::size_t i = 0; i < count; ++i)
-            if (weights[i] > 0.0) vertex.weights.push_back({helpers[i], float(weights[i])});
+            if (weights[i] > 0.0)
+                vertex.weights.push_back({vertex.candidates[i].second, float(weights[i])});
     }
 
     /// Looks among all helpers for some that improve a vertex, although others are nearer.
@@ -416,9 +416,8 @@ private:
                 squared += glm::dot(error, error);
             }
             double most = 1e-3 * std::sqrt(squared); // by how much the error may fall
-            std::size_t best = _targets.size();
-            const std::vector<std::uint32_t> known = candidates(vertex);
-            for (std::size_t h = 0; h < _targets.size(); ++h) {
+            std::pair<double, std::uint32_t> best{0.0, 0};
+            for (std::uint32_t h = 0; h < _targets.size(); ++h) {
                 double slope = 0.0, length = 0.0;
                 for (std::size_t p = 0; p < _poses.size(); ++p) {
                     const glm::dvec3 step = places[p] + errors[p] - _maps[h][p] * x;
@@ -426,16 +425,18 @@ private:
                     length += glm::dot(step, step);
                 }
                 if (slope <= most * std::sqrt(length)) continue;
+                const std::pair<double, std::uint32_t> entry{distance(vertex, _targets[h].ratios),
+                                                             h};
+                const auto& known = vertex.candidates;
                 // Joints of other limbs may happen to move alike in some poses.
-                if (distance(vertex, _targets[h].ratios) > 4.0 * vertex.near.back().first) continue;
-                if (std::find(known.begin(), known.end(), h) != known.end()) continue;
+                if (entry.first > 4.0 * known[std::min(kNear, known.size()) - 1].first) continue;
+                if (std::find(known.begin(), known.end(), entry) != known.end()) continue;
                 most = slope / std::sqrt(length);
-                best = h;
+                best = entry;
             }
-            if (best == _targets.size()) return;
-            if (known.size() == kCandidates || vertex.others.size() == kCandidates - kNear) return;
+            if (best.first == 0.0 || vertex.candidates.size() == kCandidates) return;
             Vertex next = vertex;
-            next.others.push_back(std::uint32_t(best));
+            next.candidates.push_back(best);
             solve(next);
             if (next.error >= vertex.error) return;
             vertex = std::move(next);
@@ -446,11 +447,11 @@ private:
     void chooseHelpers(std::vector<Vertex>& blended) {
         std::vector<Vertex*> tried;
         const std::size_t step = 1 + blended.size() / kMaxTried;
-        std::map<std::uint32_t, bool> bent;
+        std::set<std::uint32_t> bent;
         for (std::size_t i = 0; i < blended.size(); i += step) {
             tried.push_back(&blended[i]);
-            bent[blended[i].joint] = true;
-            for (std::size_t h = 0; h < _targets.size(); ++h) isNear(blended[i], h);
+            bent.insert(blended[i].joint);
+            for (std::size_t h = 0; h < _targets.size(); ++h) offer(blended[i], h);
             solve(blended[i]);
         }
         const std::size_t most = _targets.size() + _options.helpers * bent.size();
@@ -481,7 +482,7 @@ private:
             for (Vertex* vertex : tried) {
                 bool changed = false;
                 for (std::size_t h = first; h < _targets.size(); ++h)
-                    changed = isNear(*vertex, h) || changed;
+                    changed = offer(*vertex, h) || changed;
                 if (changed) solve(*vertex);
             }
         }
