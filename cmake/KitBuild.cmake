@@ -25,7 +25,7 @@ file(CONFIGURE OUTPUT "${OUT}/${KIT}Build.h" @ONLY CONTENT [[
 /// The build of the headers of @KIT@.
 constexpr char k@KIT@Build[] = "@build@";
 
-#ifdef __ELF__
+#if defined(__ELF__) && !defined(OSGSKIN_STATIC)
 /// The build of the loaded library @KIT@. Weak: null if the library is too old to have it.
 extern "C" __attribute__((weak)) const char* @KIT@_build();
 #else

@@ -20,17 +20,30 @@ if(WIN32)
   set(osgskin_plugin_dir "${CMAKE_INSTALL_BINDIR}/${OSGSKIN_OSG_PLUGINS}")
 endif()
 
-# osgskin_install_kit(NAME COMPONENT DEV DESCRIPTION REQUIRES): installs a node kit with its CMake
-# and pkg-config files. DEV is the component of these; REQUIRES are names of other pkg-config files.
+# osgskin_install_kit(NAME COMPONENT DEV DESCRIPTION REQUIRES [INSIDE]): installs a node kit with its
+# CMake and pkg-config files. DEV is the component of these; REQUIRES are names of other pkg-config
+# files, INSIDE those of libraries that the kit's sources alone use: who links an archive needs them.
 function(osgskin_install_kit name component dev description requires)
+  set(cflags "")
+  set(libs "")
+  if(NOT BUILD_SHARED_LIBS)
+    list(JOIN ARGN " " inside)
+    set(requires "${requires} ${inside}")
+    set(cflags " -DOSGSKIN_STATIC")
+    if(osgskin_meshoptimizer AND name MATCHES "Gpu|Import") # which has no pkg-config file
+      set(libs " -lmeshoptimizer")
+    endif()
+  endif()
   install(TARGETS ${name} EXPORT ${name}Targets
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${component} NAMELINK_COMPONENT ${dev}
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${dev} # Windows: the import library
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT ${component})
   install(EXPORT ${name}Targets NAMESPACE osgSkin:: DESTINATION "${osgskin_cmake_dir}"
     COMPONENT ${dev})
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/nodekits/${name}/include/${name}"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT ${dev})
+  if(EXISTS "${PROJECT_SOURCE_DIR}/nodekits/${name}")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/nodekits/${name}/include/${name}"
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT ${dev})
+  endif()
   configure_file("${PROJECT_SOURCE_DIR}/cmake/kit.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
   install(FILES "${PROJECT_BINARY_DIR}/${name}.pc"
     DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT ${dev})
@@ -63,26 +76,58 @@ endfunction()
 file(RELATIVE_PATH osgskin_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 file(RELATIVE_PATH osgskin_lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 
-osgskin_install_kit(osgSkin runtime dev "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation")
+foreach(package TBB meshoptimizer draco) # used where they are found
+  set(osgskin_${package} "")
+  if(${package}_DIR)
+    set(osgskin_${package} ${package})
+  endif()
+endforeach()
+string(TOLOWER "${osgskin_TBB}" osgskin_tbb) # its pkg-config file
+osgskin_install_kit(osgSkin runtime dev "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation"
+  openscenegraph-osgUtil libhwy ${osgskin_tbb})
 osgskin_install_kit(osgSkinRig runtime dev "Skeletons, motions and retargeting for osgSkin" "osgSkin")
-osgskin_install_kit(osgSkinGpu runtime dev "Deforms on a graphics card for osgSkin" "osgSkinRig")
+osgskin_install_kit(osgSkinGpu runtime dev "Deforms on a graphics card for osgSkin" "osgSkinRig" gl)
 if(TARGET osgSkinImport)
   osgskin_install_kit(osgSkinImport import dev "Reads meshes, skeletons and motions for osgSkin"
-    "osgSkinRig openscenegraph-osgDB")
+    "osgSkinRig openscenegraph-osgDB" assimp zlib ${osgskin_draco})
 endif()
 if(TARGET osgSkinBind)
-  osgskin_install_kit(osgSkinBind bind dev "Binds a skin to a skeleton for osgSkin" "osgSkinRig")
+  osgskin_install_kit(osgSkinBind bind dev "Binds a skin to a skeleton for osgSkin" "osgSkinRig"
+    openscenegraph-osgDB)
 endif()
 if(TARGET osgSkinCharacter)
   osgskin_install_kit(osgSkinCharacter bind dev "From a file to a character for osgSkin"
     "osgSkinBind osgSkinImport osgSkinGpu")
 endif()
-if(TARGET osgdb_serializers_osgskin)
-  install(TARGETS osgdb_serializers_osgskin osgdb_serializers_osgskinrig
-    LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT serializers)
-endif()
-if(TARGET osgdb_skin)
-  install(TARGETS osgdb_skin LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT plugin)
+if(BUILD_SHARED_LIBS)
+  if(TARGET osgdb_serializers_osgskin)
+    install(TARGETS osgdb_serializers_osgskin osgdb_serializers_osgskinrig
+      LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT serializers)
+  endif()
+  if(TARGET osgdb_skin)
+    install(TARGETS osgdb_skin LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT plugin)
+  endif()
+else()
+  if(TARGET osgdb_serializers_osgskin)
+    osgskin_install_kit(osgdb_serializers_osgskinrig serializers dev "Reads and writes walkers"
+      "osgSkinRig openscenegraph-osgDB")
+    osgskin_install_kit(osgdb_serializers_osgskin serializers dev "Reads and writes saved characters"
+      "osgdb_serializers_osgskinrig")
+  endif()
+  if(TARGET osgdb_skin)
+    osgskin_install_kit(osgdb_skin plugin dev "Lets osgDB read .skin files"
+      "osgSkinCharacter osgdb_serializers_osgskin")
+  endif()
+  # The packages whose targets our archives name, for osgSkinConfig.cmake.
+  set(packages hwy OpenGL ${osgskin_TBB} ${osgskin_meshoptimizer})
+  if(TARGET osgSkinImport)
+    list(APPEND packages assimp ZLIB nlohmann_json ${osgskin_draco})
+  endif()
+  list(TRANSFORM packages REPLACE "(.+)" "find_dependency(\\1)\n")
+  string(CONCAT packages ${packages})
+  file(WRITE "${PROJECT_BINARY_DIR}/osgSkinStatic.cmake" "${packages}")
+  install(FILES "${PROJECT_BINARY_DIR}/osgSkinStatic.cmake" DESTINATION "${osgskin_cmake_dir}"
+    COMPONENT dev)
 endif()
 if(TARGET osgdb_binder_osgskin)
   install(TARGETS osgdb_binder_osgskin

@@ -79,7 +79,7 @@ function(osgskin_batches target)
   endif()
 endfunction()
 
-# osgskin_nodekit(NAME): settings of the shared library nodekits/NAME with the headers include/NAME.
+# osgskin_nodekit(NAME): settings of the library nodekits/NAME with the headers include/NAME.
 function(osgskin_nodekit name)
   string(TOUPPER ${name} upper)
   osgskin_settings(${name})
@@ -92,6 +92,9 @@ function(osgskin_nodekit name)
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/src")
   set_target_properties(${name} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${OSGSKIN_SOVERSION} INSTALL_RPATH "${osgskin_origin}")
+  if(NOT BUILD_SHARED_LIBS)
+    target_compile_definitions(${name} PUBLIC OSGSKIN_STATIC)
+  endif()
   osgskin_kit_build(${name})
   add_library(osgSkin::${name} ALIAS ${name})
   # The same objects, for tests of symbols that the library does not export.
@@ -123,7 +126,11 @@ function(osgskin_kit_build name)
 endfunction()
 
 # osgskin_plugin(TARGET): an OSG plug-in in lib/osgPlugins-x.y.z, which OSG finds by
-# OSG_LIBRARY_PATH.
+# OSG_LIBRARY_PATH; or an archive, which programs link (osgSkin/StaticPlugins).
+set(OSGSKIN_PLUGIN_TYPE MODULE)
+if(NOT BUILD_SHARED_LIBS)
+  set(OSGSKIN_PLUGIN_TYPE STATIC)
+endif()
 function(osgskin_plugin target)
   set(osgskin_plugins "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
   if(WIN32) # beside the DLLs; a debug build of OSG adds a d to names
@@ -134,6 +141,9 @@ function(osgskin_plugin target)
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
   target_include_directories(${target} PRIVATE
     "${PROJECT_SOURCE_DIR}/osgPlugin/common" "${OSGSKIN_BUILD_HEADERS}")
+  if(NOT BUILD_SHARED_LIBS)
+    return()
+  endif()
   set_target_properties(${target} PROPERTIES
     PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
     LIBRARY_OUTPUT_DIRECTORY "${osgskin_plugins}/${OSGSKIN_OSG_PLUGINS}")

@@ -2,11 +2,13 @@
 # find_package(osgSkin COMPONENTS osgSkinCharacter): a target osgSkin::NAME for each component and
 # for the kits that it links. Components are osgSkin, osgSkinRig, osgSkinGpu, osgSkinBind,
 # osgSkinImport and osgSkinCharacter. The runtime (osgSkin, osgSkinRig and osgSkinGpu) is always
-# included.
+# included. Static kits have their plug-ins as targets, too: osgSkin::osgdb_serializers_osgskin and,
+# with osgSkinCharacter, osgSkin::osgdb_skin (see osgSkin/StaticPlugins).
 include(CMakeFindDependencyMacro)
 find_dependency(glm)
 # OpenSceneGraph's targets come first, because ours link them.
 include("${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/osgSkinStatic.cmake" OPTIONAL) # what static kits link
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinRigTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinGpuTargets.cmake")
@@ -32,4 +34,9 @@ foreach(kit IN LISTS osgskin_kits)
     endif()
   endif()
 endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/osgdb_serializers_osgskinrigTargets.cmake" OPTIONAL)
+include("${CMAKE_CURRENT_LIST_DIR}/osgdb_serializers_osgskinTargets.cmake" OPTIONAL)
+if("osgSkinCharacter" IN_LIST osgskin_kits)
+  include("${CMAKE_CURRENT_LIST_DIR}/osgdb_skinTargets.cmake" OPTIONAL)
+endif()
 unset(osgskin_kits)

@@ -7,8 +7,14 @@
 #include <string>
 
 /// Whether the loaded kits are those that this module was compiled with, see plugin::mayUse(). Each
-/// module has its own, in LibraryWrapper.cpp.
+/// module has its own, in LibraryWrapper.cpp; archives are linked with the kits of their build.
+#ifdef OSGSKIN_STATIC
+inline bool mayUseKits() {
+    return true;
+}
+#else
 bool mayUseKits();
+#endif
 
 /// Registers a wrapper for the lifetime of the result. Registers nothing unless mayUseKits().
 std::unique_ptr<osgDB::RegisterWrapperProxy>

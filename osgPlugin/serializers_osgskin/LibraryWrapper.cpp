@@ -21,6 +21,8 @@ USE_SERIALIZER_WRAPPER(osgSkin_UpdatePlayedSkeleton)
 
 extern "C" void wrapper_serializer_library_osgSkin(void) {}
 
+#ifndef OSGSKIN_STATIC
 bool mayUseKits() {
     return plugin::mayUse("osgdb_serializers_osgskin", {OSGSKIN_KIT_BUILD(osgSkin)});
 }
+#endif

@@ -12,7 +12,9 @@ USE_SERIALIZER_WRAPPER(osgSkinRig_Walker)
 
 extern "C" void wrapper_serializer_library_osgSkinRig(void) {}
 
+#ifndef OSGSKIN_STATIC
 bool mayUseKits() {
     return plugin::mayUse("osgdb_serializers_osgskinrig",
                           {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig)});
 }
+#endif

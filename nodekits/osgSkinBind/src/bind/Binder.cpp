@@ -8,7 +8,7 @@
 
 #include <mutex>
 
-#ifndef _WIN32
+#if !defined(_WIN32) && !defined(OSGSKIN_STATIC)
 #include <dlfcn.h>
 #endif
 
@@ -23,7 +23,9 @@ osg::ref_ptr<const Binder> current() {
     return registered;
 }
 
+/// Static kits have no binder: the plug-in links shared ones, and would register with these.
 void load() {
+#ifndef OSGSKIN_STATIC
     osgDB::Registry& registry = *osgDB::Registry::instance();
     const std::string plugin = registry.createLibraryNameForExtension("binder_osgskin");
 #ifndef _WIN32 // where osgDB searches the folders of programs and DLLs
@@ -34,6 +36,7 @@ void load() {
     }
 #endif
     registry.loadLibrary(plugin);
+#endif
 }
 
 } // namespace
