@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""tutorial.py PAGE SOURCES BUILD FOLDER: does what a tutorial's page says, in one shell.
+"""tutorial.py PAGE SOURCES BUILD FOLDER [FILE...]: does what a tutorial's page says, in one shell.
 
 Indented lines are commands. A block of code after "Save this as `NAME`:" is a file. The shell starts in a
-folder that has the sources, and BUILD as build/release; its home is inside FOLDER. Programs that open a
-window close it after a few frames. Fails with a command that fails or that warns. Needs a display.
+folder that has the sources, the FILEs, and BUILD as build/release; its home is inside FOLDER. Programs that
+open a window close it after a few frames. Fails with a command that fails or that warns. Needs a display.
 """
 import os
 import pathlib
@@ -44,13 +44,15 @@ def shell_word(text):
 
 
 def main():
-    page, sources, build, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:])
+    page, sources, build, folder, *files = (pathlib.Path(word).resolve() for word in sys.argv[1:])
     shutil.rmtree(folder, ignore_errors=True)
     clone = folder / "clone"
     (clone / "build").mkdir(parents=True)
     for entry in ("data", "examples"):
         (clone / entry).symlink_to(sources / entry)
     (clone / "build/release").symlink_to(build)
+    for file in files:
+        (clone / file.name).symlink_to(file)
     script, commands = script_of(page)
     if not commands:
         sys.exit(f"{page}: no commands")
