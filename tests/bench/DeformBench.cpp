@@ -401,6 +401,7 @@ int main(int argc, char** argv) {
     bench::addLayers();
     bench::addLoads();
     bench::addLoadedFrames();
+    bench::addWalkers();
     bench::RatioTable table;
     benchmark::RunSpecifiedBenchmarks(&table);
     return 0;

@@ -2,6 +2,7 @@
 #include "LoadBench.h"
 
 #include "CullFrame.h"
+#include "LoadedFile.h"
 
 #include <osgSkin/DeformPool>
 #include <osgSkin/DeformableSkin>
@@ -11,19 +12,12 @@
 #include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
 
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <malloc.h>
 
 namespace bench {
 
@@ -31,40 +25,14 @@ namespace {
 
 const char* const kThrower = OSGSKIN_DATA "/thrower.skin";
 
-osg::ref_ptr<osg::Node> load(const std::string& file, const std::string& words = "") {
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
-    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
-    osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
-    if (!node)
-        throw std::runtime_error("cannot read " + file +
-                                 "; OSG_LIBRARY_PATH must name the plug-ins' folder");
-    return node;
-}
-
-/// The thrower as .osgb, removed at the end.
-class SavedThrower {
-public:
-    explicit SavedThrower(const std::string& words)
-        : file((std::filesystem::temp_directory_path() /
-                ("osgskin-bench-" + std::to_string(std::random_device()()) + ".osgb"))
-                   .string()) {
-        osgDB::writeNodeFile(*load(kThrower, words), file);
-    }
-    ~SavedThrower() { std::filesystem::remove(file); }
-    SavedThrower(const SavedThrower&) = delete;
-    SavedThrower& operator=(const SavedThrower&) = delete;
-
-    const std::string file;
-};
-
 const std::string& saved() {
-    static const SavedThrower thrower("");
-    return thrower.file;
+    static const SavedFile thrower(*load(kThrower));
+    return thrower.path;
 }
 
 const std::string& savedMerged() {
-    static const SavedThrower thrower("rigid=merged");
-    return thrower.file;
+    static const SavedFile thrower(*load(kThrower, "rigid=merged"));
+    return thrower.path;
 }
 
 /// Nothing of the file is alive; the plug-ins are loaded.
@@ -91,11 +59,6 @@ std::vector<osgSkin::DeformableSkin*> skinsOf(osg::Node& scene) {
     } visitor;
     scene.accept(visitor);
     return visitor.found;
-}
-
-double allocated() {
-    const struct mallinfo2 info = mallinfo2();
-    return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
 /// A thousand characters of one file, beside as many copies of its skin, which have a pose and

@@ -11,6 +11,10 @@ void addLoads();
 /// `cull x` are ratios to the deformation of the same frames.
 void addLoadedFrames();
 
+/// Adds the group "walkers": a pedestrian's loading, the memory of a thousand, and whole frames of
+/// them in a street, below a CharacterGroup and below any group.
+void addWalkers();
+
 } // namespace bench
 
 #endif
