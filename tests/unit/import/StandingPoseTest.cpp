@@ -370,6 +370,23 @@ TEST_F(StandingPose, JointsOfTheSameSkeletonMoveAgainstTheirParents) {
         << report.text().substr(0, 600);
 }
 
+/// As a model's own clips do.
+TEST_F(StandingPose, KeepsHeightsOfOwnMotion) {
+    Motion own = actor;
+    own.skeleton = rig;
+    own.rootPositions = retarget(actor, rig).rootPositions; // on the rig's floor
+    const std::vector<glm::dvec3> onFloor = own.rootPositions;
+    const double height =
+        rig.joints[0].centre.y - rig.joints[std::size_t(rig.find("LeftFoot"))].centre.y;
+    for (glm::dvec3& position : own.rootPositions) position.y -= 0.1 * height;
+    const Clip sunk = retarget(own, rig);
+    for (std::size_t f = 0; f < sunk.frames; ++f)
+        ASSERT_LT(glm::distance(sunk.rootPositions[f], own.rootPositions[f]), 1e-6 * height) << f;
+
+    for (glm::dvec3& position : own.rootPositions) position.y -= 0.5 * height; // another floor
+    EXPECT_NEAR(retarget(own, rig).rootPositions[0].y, onFloor[0].y, 1e-6 * height);
+}
+
 /// Authors name sides from their own view.
 TEST_F(StandingPose, WarnsAboutBackwardFeet) {
     RestSkeleton swapped = rig;

@@ -92,10 +92,14 @@ private:
 /// shifted by one number for the whole clip, so that the feet's lowest position is the floor that
 /// the rig stands on at rest. A jump stays a jump: the shift is taken from the frames in which the
 /// feet are lowest. A motion that begins far from the origin begins where the rig rests.
+///
+/// A motion of the rig's own skeleton keeps its heights, as a model's own clips do, if both have
+/// the same size and nearly the same floor.
 class RootPath {
 public:
     /// \param body the rig and its motion; it must outlive this
-    explicit RootPath(const RetargetTarget& body);
+    /// \param isSameBody see StandingPose
+    RootPath(const RetargetTarget& body, bool isSameBody);
 
     double scale() const { return _scale; }
 
@@ -123,6 +127,7 @@ private:
     double lowestFoot(const std::vector<glm::dquat>& rigWorld) const;
 
     const RetargetTarget& _body;
+    bool _isSameBody;
     int _rigHips = 0;
     int _motionHips = 0;
     double _rigHeight = 0.0; ///< of the hips

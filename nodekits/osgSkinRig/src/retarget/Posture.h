@@ -102,6 +102,7 @@ private:
 struct SameSkeleton {
     double scale;    ///< from the motion's unit to the rig's
     bool restsAlike; ///< the motion's zero pose is the rig's rest pose
+    bool isSameBody; ///< their bones have the same proportions
 
     /// [motion joint] the rotations that take the motion's zero pose to the rig's rest pose.
     std::vector<glm::dquat> toRigRest;
@@ -133,8 +134,8 @@ struct StandingPose {
     /// copied.
     std::optional<SameSkeleton> copied;
 
-    /// Whether the rig is the motion's skeleton.
-    bool isSame = false;
+    bool isSame = false;     ///< whether the rig is the motion's skeleton
+    bool isSameBody = false; ///< and of the same proportions
 
     std::vector<std::string> notes; ///< for the report
 };

@@ -166,7 +166,8 @@ Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map
 }
 
 /// \param motion relative to a pose in which the actor stands
-Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
+/// \param isSameBody see StandingPose
+Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map, bool isSameBody,
              RetargetReport* report) {
     const std::vector<int>& motionJoint = map.motionJoint;
     const UprightFrames frames = findUprightFrames(rig, motion.skeleton, map);
@@ -184,7 +185,7 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
     clip.rotations.reserve(clip.frames * clip.joints);
 
     FootRoll feetRoll(body, alignment);
-    RootPath root(body);
+    RootPath root(body, isSameBody);
     MeasureFeet feet(body);
     StandingCheck standing(map.rig, map.motion);
     std::vector<glm::dquat> motionWorld;
@@ -377,8 +378,9 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     const StandingPose pose = findStandingPose(motion, rig, map, options.up);
     RetargetReport own;
     if (report == nullptr) report = &own;
-    Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
-                            : aligned(pose.counted ? *pose.counted : motion, rig, map, report);
+    Clip clip = pose.copied
+                    ? copied(motion, rig, map, *pose.copied, report)
+                    : aligned(pose.counted ? *pose.counted : motion, rig, map, pose.isSame, report);
     if (pose.isSame && !motion.moves.empty()) addMoves(motion, rig, map.motionJoint, *report, clip);
     if (options.shareTwist && !pose.copied) {
         const std::vector<std::size_t> shared = shareHingeTwist(rig, map.rig, clip);

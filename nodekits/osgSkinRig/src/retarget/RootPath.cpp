@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace osgSkin {
@@ -39,6 +40,9 @@ constexpr double kContactBand = 0.06;
 /// width.
 constexpr double kFar = 5.0;
 
+/// How far the feet may be off the rig's floor, in hip heights, where both files have the same one.
+constexpr double kSameFloor = 0.25;
+
 /// The median height of the feet in the samples in which they stand, so that samples in the air or
 /// on a ladder, or a single noisy one, do not count.
 double floorHeight(std::vector<double> feet, double band) {
@@ -50,7 +54,8 @@ double floorHeight(std::vector<double> feet, double band) {
 
 } // namespace
 
-RootPath::RootPath(const RetargetTarget& body) : _body(body) {
+RootPath::RootPath(const RetargetTarget& body, bool isSameBody)
+    : _body(body), _isSameBody(isSameBody) {
     // The hips, or else the first joint that has a driver.
     const int joints = static_cast<int>(body.rig.rest().joints.size());
     while (_rigHips < joints && body.driver(_rigHips) != 0) ++_rigHips;
@@ -108,6 +113,9 @@ std::vector<glm::dvec3> RootPath::finish() {
     startAtOrigin();
     if (_feet.empty()) return std::move(_roots);
     const double rise = floorHeight(_feet, kContactBand * _rigHeight);
+    const bool restsOnSameFloor = std::abs(_offset.y) < 0.01 * _rigHeight;
+    if (_isSameBody && restsOnSameFloor && std::abs(rise) < kSameFloor * _rigHeight)
+        return std::move(_roots);
     _offset.y -= rise;
     for (glm::dvec3& root : _roots) root.y -= rise;
     return std::move(_roots);

@@ -107,7 +107,7 @@ bool doDirectionsAgree(const std::vector<glm::dvec3>& ours, const std::vector<gl
 
 std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const RestSkeleton& motion,
                                                const std::vector<int>& motionJoint) {
-    SameSkeleton result{1.0, false,
+    SameSkeleton result{1.0, false, false,
                         std::vector<glm::dquat>(motion.joints.size(), {1.0, 0.0, 0.0, 0.0})};
     std::vector<int> rigJoint(motion.joints.size(), -1);
     std::vector<glm::dvec3> ours, theirs;
@@ -144,8 +144,9 @@ std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const Re
     double difference = 0.0;
     for (std::size_t b = 0; b < ours.size(); ++b)
         difference += glm::distance(ours[b], result.scale * theirs[b]);
+    result.isSameBody = difference <= kTolerance * ourLength;
     // Bodies that differ at rest, in the same axes, are to be aligned.
-    if (result.restsAlike && !(difference <= kTolerance * ourLength)) return std::nullopt;
+    if (result.restsAlike && !result.isSameBody) return std::nullopt;
     return result;
 }
 
@@ -489,6 +490,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     const PostureJoints rigJoints(map.rig);
     const auto same = SameSkeleton::find(rig, motion.skeleton, map.motionJoint);
     result.isSame = same.has_value();
+    result.isSameBody = same && same->isSameBody;
     const bool isKnown = joints.complete();
     if (!isKnown && !(same && rigJoints.complete())) return result;
     const std::optional<Posture> zero =
