@@ -2,6 +2,7 @@
 // Transforms and curves of FBX files that Assimp does not read, or reads wrongly.
 #include "assimp/FbxMotion.h"
 #include "assimp/FbxCurve.h"
+#include "assimp/FbxModels.h"
 
 #include "FindNodes.h"
 #include "Notices.h"
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -91,9 +93,11 @@ public:
         const char* const names[] = {"base", "middle", "top"};
         for (int j = 0; j < 3; ++j) {
             out << "Model: " << 10 + j << ", \"Model::" << names[j] << "\", \"LimbNode\" {\n"
-                << "Properties70: {\n P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,"
-                << (j == 0 ? 0 : 50) << ",0\n"
-                << properties[names[j]] << "}\n}\nNodeAttribute: " << 20 + j
+                << "Properties70: {\n";
+            if (properties[names[j]].find("Lcl Translation") == std::string::npos)
+                out << " P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,"
+                    << (j == 0 ? 0 : 50) << ",0\n";
+            out << properties[names[j]] << "}\n}\nNodeAttribute: " << 20 + j
                 << ", \"NodeAttribute::" << names[j] << "\", \"LimbNode\" {\n}\n";
             _connections << "C: \"OO\"," << 10 + j << "," << (j == 0 ? 0 : 9 + j) << "\nC: \"OO\","
                          << 20 + j << "," << 10 + j << "\n";
@@ -292,6 +296,34 @@ TEST(FbxMotion, GeometricTransformsPlaceTheMesh) {
     expectMoved(rig, "middle", 1.0, moved(0, 50, 0) * turned(0, 0, 40) * moved(0, -50, 0));
 }
 
+/// Blender writes the frame that it shows into the nodes; the mesh is bound in the rest pose.
+TEST(FbxMotion, FrameShownAtExportIsNotTheRestPose) {
+    for (const double degrees : {30.0, 60.0, 180.0}) {
+        FbxColumn column;
+        column.set("base", "Lcl Rotation", {0, degrees, 0});
+        column.move(0, 'R', 'Y', {{0, 0}, {1, degrees}});
+        const ImportedRig rig = column.read();
+        expectMoved(rig, "base", 0.0, glm::dmat4(1.0));
+        expectMoved(rig, "base", 1.0, turned(0, degrees, 0));
+    }
+    FbxColumn lying;
+    lying.set("base", "Lcl Rotation", {90, 0, 0});
+    lying.set("base", "Lcl Translation", {400, 0, 0});
+    lying.move(0, 'R', 'X', {{0, 0}, {1, 90}});
+    lying.move(0, 'T', 'X', {{0, 0}, {1, 400}});
+    const ImportedRig rig = lying.read();
+    expectMoved(rig, "base", 0.0, glm::dmat4(1.0));
+    expectMoved(rig, "base", 1.0, moved(400, 0, 0) * turned(90, 0, 0));
+}
+
+/// A clip that never comes near the bind pose shows another place of the figure, not a pose.
+TEST(FbxMotion, FigureInAnotherPlaceRestsThere) {
+    FbxColumn column;
+    column.set("base", "Lcl Translation", {400, 0, 0});
+    column.move(0, 'T', 'X', {{0, 400}, {1, 420}});
+    expectMoved(column.read(), "base", 0.0, glm::dmat4(1.0));
+}
+
 TEST(FbxMotion, VerticesAreShared) {
     EXPECT_EQ(FbxColumn().read().body.mesh.positions.size(), 24u);
 }
@@ -306,6 +338,33 @@ TEST(FbxMotion, CoarserLevelsAreLeftOut) {
         << notices.text();
 }
 
+/// Assimp 5.4 keeps nine of 31 keys of a rotation.
+TEST(FbxMotion, KeysThatAssimpLosesAreRead) {
+    FbxColumn column;
+    std::vector<FbxKey> keys;
+    for (int k = 0; k <= 30; ++k) keys.push_back({k / 30.0, 40.0 * k / 30.0});
+    column.move(1, 'R', 'Z', keys);
+    column.read();
+    std::ifstream file(testing::TempDir() + "column.fbx");
+    std::stringstream bytes;
+    bytes << file.rdbuf();
+
+    osgSkin::SourceScene scene;
+    scene.addNode("root", -1, glm::dmat4(1.0));
+    scene.addNode("base", 0, glm::dmat4(1.0));
+    scene.addNode("middle", 1, moved(0, 50, 0));
+    const auto clip = std::make_shared<osgSkin::SourceAnimation>();
+    clip->name = "clip";
+    clip->ticksPerSecond = 1000.0;
+    clip->tracks.push_back({"middle", {}, {{0.0, glm::quat(1, 0, 0, 0)}}, {}});
+    scene.animations.push_back(clip);
+    osgSkin::correctFbx(bytes.str(), "column.fbx", {}, scene);
+    const auto& rotations = scene.animations.at(0)->tracks.at(0).rotations;
+    ASSERT_GE(rotations.size(), keys.size());
+    EXPECT_NEAR(rotations.back().time, 1000.0, 1e-6);
+    EXPECT_NEAR(glm::degrees(glm::angle(rotations.back().value)), 40.0, 1e-3);
+}
+
 TEST(FbxMotion, UnknownBytesChangeNothing) {
     osgSkin::SourceScene scene;
     scene.addNode("root", -1, glm::dmat4(3.0));
@@ -313,6 +372,28 @@ TEST(FbxMotion, UnknownBytesChangeNothing) {
         osgSkin::correctFbx(bytes, "x.fbx", {}, scene);
     ASSERT_EQ(scene.nodes.size(), 1u);
     EXPECT_EQ(scene.nodes[0].matrix, glm::dmat4(3.0));
+}
+
+TEST(FbxModels, AreConnected) {
+    const osgSkin::FbxDocument document = osgSkin::FbxDocument::read(
+        "; FBX 7.4.0 project file\nFBXVersion: 7400\nObjects: {\n"
+        "Model: 1, \"Model::upper\", \"LimbNode\" {\n}\n"
+        "Model: 2, \"Model::lower\", \"LimbNode\" {\nProperties70: {\n"
+        " P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,5,0\n"
+        " P: \"RotationPivot\", \"Vector3D\", \"Vector\", \"\",0,2,0\n}\n}\n}\n"
+        "Connections: {\nC: \"OO\",1,0\nC: \"OO\",2,1\n}\n");
+    const osgSkin::FbxModels models(document);
+    ASSERT_EQ(models.models.size(), 2u);
+    ASSERT_EQ(models.roots.size(), 1u);
+    EXPECT_EQ(models.roots[0]->name, "upper");
+    ASSERT_EQ(models.roots[0]->children.size(), 1u);
+    const osgSkin::FbxModel& lower = *models.roots[0]->children[0];
+    EXPECT_EQ(lower.parent, models.roots[0]);
+    EXPECT_TRUE(lower.hasPivots());
+    // A half turn about the pivot, at 7: the origin goes from 5 to 9.
+    const osgSkin::NodeTransform turned =
+        lower.transform({lower.own[0], glm::dvec3(0, 0, 180), glm::dvec3(1.0)}, glm::dvec3(1.0));
+    EXPECT_LT(glm::distance(turned.translation, glm::dvec3(0, 9, 0)), 1e-9);
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #include "scene/SceneBind.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -147,6 +148,7 @@ constexpr double kMinPosed = glm::radians(1.0);  ///< minimum rotation of a pose
 constexpr double kMaxPosed = glm::radians(45.0); ///< above this, probably another up axis
 constexpr double kStraight = 1e-3;
 constexpr double kFarthestPosed = 0.5; ///< maximum displacement of a posed bone, in extents
+constexpr std::size_t kPosesOfClip = 64;
 
 double scaleOf(const glm::dmat4& m) {
     return std::cbrt(std::abs(glm::determinant(glm::dmat3(m))));
@@ -166,38 +168,96 @@ bool isAlongAxes(const glm::dmat4& m) {
     return true;
 }
 
+/// The topmost bone of a skin, beside its bind pose.
+struct Topmost {
+    const SourceBone& bone;
+    const glm::dmat4& byMesh; ///< from the mesh to the scene, if the mesh is bound at its node
+    double extent;            ///< of the bones in their bind pose
+
+    double scale() const { return scaleOf(byMesh); }
+    glm::dvec3 boundAt() const { return glm::dvec3(byMesh * glm::inverse(bone.offset)[3]); }
+
+    /// The rotation from the bind pose to another one.
+    /// \param byBone from the mesh to the scene, if the bone is bound in that pose
+    glm::dmat3 turn(const glm::dmat4& byBone) const {
+        return glm::dmat3(byBone) / scaleOf(byBone) * glm::inverse(glm::dmat3(byMesh) / scale());
+    }
+    double distance(const glm::dmat4& byBone) const {
+        return glm::distance(boundAt(), glm::dvec3(byBone * glm::inverse(bone.offset)[3]));
+    }
+    bool isNear(const glm::dmat4& byBone) const {
+        return angleOf(turn(byBone)) < kMaxPosed && distance(byBone) < kFarthestPosed * extent;
+    }
+};
+
+double extentOf(const std::vector<const SourceBone*>& bones, const Topmost& topmost) {
+    double result = 0.0;
+    for (const SourceBone* bone : bones)
+        result = std::max(
+            result, glm::distance(topmost.boundAt(),
+                                  glm::dvec3(topmost.byMesh * glm::inverse(bone->offset)[3])));
+    return result;
+}
+
+/// Whether a clip brings the topmost bone near its bind pose: then another pose of its node is one
+/// of a clip, and not another up axis or place of the figure.
+/// \param above from the space of the bone's node to the scene
+bool isNearInAClip(const SourceScene& scene, const Topmost& topmost, const SourceNode& node,
+                   const glm::dmat4& above) {
+    const NodeTransform still = decompose(node.matrix);
+    for (const auto& clip : scene.animations)
+        for (const SourceTrack& track : clip->tracks) {
+            if (track.node != node.name) continue;
+            const std::size_t keys = std::max(track.rotations.size(), track.positions.size());
+            const auto at = [keys](const auto& values, std::size_t k) {
+                return values[k * (values.size() - 1) / std::max<std::size_t>(1, keys - 1)].value;
+            };
+            const std::size_t step = 1 + keys / kPosesOfClip;
+            for (std::size_t k = 0; k < keys; k += step) {
+                const glm::dquat rotation =
+                    track.rotations.empty() ? still.rotation : glm::dquat(at(track.rotations, k));
+                const glm::dvec3 place = track.positions.empty()
+                                             ? still.translation
+                                             : glm::dvec3(at(track.positions, k));
+                glm::dmat4 local = glm::mat4_cast(rotation);
+                for (int axis = 0; axis < 3; ++axis) local[axis] *= still.scale[axis];
+                local[3] = glm::dvec4(place, 1.0);
+                if (topmost.isNear(above * local * topmost.bone.offset)) return true;
+            }
+        }
+    return false;
+}
+
 /// Whether the topmost node is posed, and the bones are bound where the mesh's node is, which
-/// happens if an exporter stores a clip's first frame. Other differences between the spaces are not
+/// happens if an exporter stores a frame of a clip. Other differences between the spaces are not
 /// poses: another unit or up axis, a rotated figure, a meaningless mesh node.
 ///
+/// \param scene with its clips
 /// \param bones with reliable offsets
 /// \param topmost of them
-/// \param above from the space of the topmost bone's node to the scene
+/// \param node of the topmost bone
+/// \param above from the space of that node to the scene
 /// \param byBone from the mesh to the scene, if the topmost bone's node is not posed
 /// \param byMesh the same, if the mesh is bound at its node
-bool isPosed(const std::vector<const SourceBone*>& bones, const SourceBone& topmost,
-             const glm::dmat4& above, const glm::dmat4& byBone, const glm::dmat4& byMesh) {
+bool isPosed(const SourceScene& scene, const std::vector<const SourceBone*>& bones,
+             const SourceBone& topmost, const SourceNode& node, const glm::dmat4& above,
+             const glm::dmat4& byBone, const glm::dmat4& byMesh) {
     if (!isAlongAxes(above) || !isAlongAxes(byMesh)) return false;
-    const double scale = scaleOf(byMesh);
-    if (!(scale > 0.0) || !(std::abs(scaleOf(byBone) / scale - 1.0) < kSameScale)) return false;
-    const glm::dmat4 bound = glm::inverse(topmost.offset);
-    double extent = 0.0;
-    for (const SourceBone* bone : bones) {
-        const glm::dmat4 other = glm::inverse(bone->offset);
-        extent =
-            std::max(extent, scale * glm::distance(glm::dvec3(bound[3]), glm::dvec3(other[3])));
-    }
-    const glm::dvec3 place(byMesh * bound[3]);
-    const double moved = glm::distance(place, glm::dvec3(byBone * bound[3]));
-    const glm::dmat3 turn =
-        glm::dmat3(byBone) / scaleOf(byBone) * glm::inverse(glm::dmat3(byMesh) / scale);
+    Topmost bone{topmost, byMesh, 0.0};
+    if (!(bone.scale() > 0.0) || !(std::abs(scaleOf(byBone) / bone.scale() - 1.0) < kSameScale))
+        return false;
+    bone.extent = extentOf(bones, bone);
+    const double moved = bone.distance(byBone);
+    const glm::dmat3 turn = bone.turn(byBone);
     const double turned = angleOf(turn);
-    if (!(turned > kMinPosed)) return false; // also for NaN
-    if (turned < kMaxPosed) return moved < kFarthestPosed * extent;
+    if (!std::isfinite(turned) || !std::isfinite(moved)) return false;
+    if (bone.isNear(byBone)) return turned > kMinPosed;
     // A rotation of the whole figure about the mesh's origin would move the bone.
-    const glm::dvec3 arm = place - glm::dvec3(byMesh[3]);
-    return moved < kSamePosition * extent &&
-           glm::distance(turn * arm, arm) > 10.0 * kSamePosition * extent;
+    const glm::dvec3 arm = bone.boundAt() - glm::dvec3(byMesh[3]);
+    if (turned >= kMaxPosed && moved < kSamePosition * bone.extent &&
+        glm::distance(turn * arm, arm) > 10.0 * kSamePosition * bone.extent)
+        return true;
+    return isNearInAClip(scene, bone, node, above);
 }
 
 } // namespace
@@ -283,8 +343,8 @@ void SceneBind::bindSkin(const std::vector<const SourceBone*>& bones, const glm:
     toScene = bindFromAbove(*standing) * reference->offset;
     const SourceNode* above = parent(*standing);
     if (_bind.count(standing) == 0 &&
-        isPosed(bones, *reference, above != nullptr ? posed(*above) : glm::dmat4(1.0), toScene,
-                meshToScene))
+        isPosed(_scene, bones, *reference, *standing,
+                above != nullptr ? posed(*above) : glm::dmat4(1.0), toScene, meshToScene))
         toScene = meshToScene;
     for (const SourceBone* bone : bones)
         _bind.emplace(find(bone->name), toScene * glm::inverse(bone->offset));

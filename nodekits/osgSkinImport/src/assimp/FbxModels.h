@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#ifndef OSGSKINIMPORT_ASSIMP_FBXMODELS_H
+#define OSGSKINIMPORT_ASSIMP_FBXMODELS_H
+
+#include "assimp/FbxCurve.h"
+#include "assimp/FbxDocument.h"
+#include "scene/SourceScene.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace osgSkin {
+
+/// What an animation moves of a model.
+enum FbxChannel : std::size_t { Translation, Rotation, Scaling };
+
+/// Translation, rotation in degrees, and scale, before all else.
+using FbxLocal = std::array<glm::dvec3, 3>;
+
+glm::dmat4 matrixOf(const glm::dvec3& translation, const glm::dquat& rotation,
+                    const glm::dvec3& scale);
+
+/// A model, FBX's node.
+struct FbxModel {
+    explicit FbxModel(const FbxRecord& object);
+
+    bool hasPivots() const;
+
+    bool hasGeometric() const { return geometric != glm::dmat4(1.0); }
+
+    /// From the model's frame to its parent's.
+    /// \param parentsScale which the model does not inherit
+    NodeTransform transform(const FbxLocal& local, const glm::dvec3& parentsScale) const;
+
+    std::string name;
+    FbxLocal own;
+    glm::dvec3 rotationOffset, rotationPivot, scalingOffset, scalingPivot;
+    bool ignoresParentsScale;
+    glm::dmat4 geometric; ///< from a mesh to the model's frame
+    int order = 0;
+    glm::dquat before{1.0, 0.0, 0.0, 0.0}, after{1.0, 0.0, 0.0, 0.0};
+    std::map<const FbxModel*, glm::dmat4> binds; ///< of the joints of its mesh's skin, to the scene
+    const FbxModel* parent = nullptr;
+    std::vector<FbxModel*> children; ///< in the order of connections
+    int node = -1;                   ///< index in the scene
+};
+
+/// A property of a model in one animation.
+struct FbxCurves {
+    std::array<const FbxCurve*, 3> axes{}; ///< null: constant
+    glm::dvec3 constant{0.0};
+
+    glm::dvec3 at(double time) const;
+};
+
+/// One animation of one model.
+using FbxMoves = std::map<std::size_t, FbxCurves>; ///< by Channel
+
+struct FbxStack {
+    std::string name;
+    double start = 0.0, stop = 0.0; ///< seconds; equal if not given
+    std::map<const FbxModel*, FbxMoves> moves;
+    std::size_t unusedLayers = 0;
+
+    static constexpr double kRounding = 2e-6; ///< seconds
+    bool isInRange(double time) const {
+        return start == stop || (time >= start - kRounding && time <= stop + kRounding);
+    }
+};
+
+/// The models and animations of a file, connected.
+class FbxModels {
+public:
+    using Id = std::int64_t;
+
+    explicit FbxModels(const FbxDocument& document);
+
+    std::map<Id, FbxModel> models;
+    std::vector<FbxModel*> roots;
+    std::vector<FbxStack> stacks;
+
+private:
+    void connect(const std::vector<FbxRecord>& connections);
+
+    std::map<Id, FbxCurve> _curves;
+    std::map<Id, const FbxRecord*> _curveNodes;
+    std::map<Id, std::size_t> _stackOf;
+    std::map<Id, const FbxRecord*> _deformers;
+    std::set<Id> _geometries;
+};
+
+} // namespace osgSkin
+
+#endif
