@@ -55,6 +55,13 @@ TEST(Messages, SuggestFittingWhereNoSkeletonIsNamed) {
     expectContains(test::whyRefused(file), R"(set "skeleton" to a file, or to { "fit": true })");
 }
 
+TEST(Messages, NameAFormatThatNothingReads) {
+    const std::string file = test::makeTestFolder() + "/figure.m3dx";
+    std::ofstream(file) << "3DMO";
+    expectContains(test::whyRefused(file), "figure.m3dx: neither this build of Assimp nor "
+                                           "OpenSceneGraph reads .m3dx files; expected glTF");
+}
+
 TEST(Messages, SuggestOptionsOnCommandLines) {
     const std::string folder = test::makeTestFolder();
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {

@@ -288,6 +288,19 @@ TEST(WildGltf, PartsPaintedForOneJointFollowIt) {
 }
 
 /// Sketchfab's layout: a scale of the topmost joint's node that every clip replaces.
+/// Blender's exporter puts vertices that nobody painted on a joint of its own.
+TEST(WildGltf, UnpaintedVerticesFollowTheirNeighbours) {
+    test::GltfColumn column;
+    column.json["nodes"][column.joints[2]]["name"] = "neutral_bone";
+    const test::Notices notices;
+    const Character character = osgSkin::loadCharacter(column.save("neutral_bone.gltf"));
+    EXPECT_TRUE(notices.say("8 of 24 vertices have no weights, they take those of the nearest"))
+        << notices.text();
+    const osgSkin::Binding& binding = character.binding;
+    for (const std::uint32_t joint : binding.regions)
+        EXPECT_NE(binding.joints[joint].name, "neutral_bone");
+}
+
 TEST(WildGltf, ClipsMayReplaceAJointsScale) {
     GltfColumn column;
     column.bend();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Results for Assimp's test models (Debian: assimp-testmodels), including broken ones: read, or
 // refused with a reason, but never a crash.
+#include "assimp/EditedFile.h"
+
+#include "ExpectError.h"
 #include "LeaksOfOthers.h"
 #include "MeshParts.h"
 #include "Paths.h"
@@ -12,11 +15,13 @@
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
 
+#include <assimp/Importer.hpp>
 #include <osg/Geometry>
 #include <osg/Texture2D>
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -45,6 +50,27 @@ bool isForTrustedOnly(const std::filesystem::path& file) {
 }
 
 } // namespace
+
+TEST(EditedFile, IsThatOfFbxAndCollada) {
+    Assimp::Importer importer;
+    const std::string fbx = testing::TempDir() + "edited.fbx", obj = testing::TempDir() + "a.obj",
+                      dae = testing::TempDir() + "edited.dae";
+    std::ofstream(fbx) << "; FBX 7.4.0 project file\n";
+    std::ofstream(obj) << "v 0 0 0\n";
+    EXPECT_EQ(osgSkin::editFile(obj, {}, importer), "");
+    EXPECT_TRUE(importer.IsDefaultIOHandler());
+    EXPECT_EQ(osgSkin::editFile(fbx, {}, importer), "; FBX 7.4.0 project file\n");
+    EXPECT_FALSE(importer.IsDefaultIOHandler());
+    std::ofstream(dae) << R"(<controller id="a"><skin source="#b"></skin></controller>)"
+                       << R"(<controller id="b"><skin source="#a"></skin></controller>)";
+    expectError([&] { osgSkin::editFile(dae, {}, importer); }, "expected one of a mesh");
+}
+
+TEST(AssimpModels, SaysWhichFormatsLoseTheirBones) {
+    OSGSKIN_NEEDS(kModels);
+    expectError([] { osgSkin::importRig(std::string(kModels) + "/IQM/mrfixit.iqm"); },
+                "Assimp reads no bones of .iqm files");
+}
 
 TEST(AssimpModels, ReadsRiggedModels) {
     OSGSKIN_NEEDS(kModels);

@@ -205,6 +205,19 @@ TEST(GltfMorphs, IgnoresRoundingErrors) {
 }
 
 /// A node that mirrors and scales its mesh, below a joint.
+/// Such as Blender writes for a shape key that moves nothing.
+TEST(GltfMorphs, ReportsTargetsThatMoveNothing) {
+    Face face;
+    face.json["accessors"].push_back(
+        {{"componentType", 5126}, {"count", kVertices}, {"type", "VEC3"}});
+    primitiveOf(face)["targets"].push_back({{"POSITION", face.json["accessors"].size() - 1}});
+    face.json["meshes"][0]["extras"]["targetNames"].push_back("still");
+    const test::Notices notices;
+    const ImportedRig rig = osgSkin::importRig(face.save("still_morph.gltf"));
+    EXPECT_EQ(namesOf(rig.body), (std::vector<std::string>{"wide", "tall"}));
+    EXPECT_TRUE(notices.say("morph target \"still\" moves no vertex; left out")) << notices.text();
+}
+
 TEST(GltfMorphs, TransformsOffsets) {
     Face face;
     json& node = face.json["nodes"][face.meshNode];

@@ -218,6 +218,7 @@ private:
             addMorph(std::move(target), mesh);
         }
         for (const GltfMesh::Expression& expression : from.expressions) {
+            if (expression.parts.empty()) continue; // such as VRM's "neutral"
             std::vector<std::pair<const MorphTarget*, double>> parts;
             for (const auto& [t, weight] : expression.parts) {
                 if (t >= primitive.targets.size()) continue;
@@ -312,10 +313,16 @@ private:
                                " follows joint " + std::to_string(joints[i]) +
                                    ", expected one of the " + std::to_string(mesh.bones.size()) +
                                    " that the skin has");
-                mesh.bones[joints[i]].weights.push_back(
-                    {static_cast<std::uint32_t>(i / 4), weights[i]});
+                if (!isPlaceholder(mesh.bones[joints[i]]))
+                    mesh.bones[joints[i]].weights.push_back(
+                        {static_cast<std::uint32_t>(i / 4), weights[i]});
             }
         }
+    }
+
+    /// Whether a joint is the one that Blender's exporter adds for vertices that nobody painted.
+    static bool isPlaceholder(const SourceBone& bone) {
+        return bone.name.rfind("neutral_bone", 0) == 0;
     }
 
     [[noreturn]] void failWeight(std::size_t accessor, const std::string& member, std::size_t at,

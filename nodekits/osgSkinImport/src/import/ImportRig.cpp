@@ -332,6 +332,13 @@ bool isRigged(const SourceScene& scene) {
                        [](const auto& mesh) { return !mesh->bones.empty(); });
 }
 
+/// Says that a file may have bones that Assimp does not read.
+std::string formatHint(const std::string& path) {
+    return formatOf(path).extension == "iqm"
+               ? "; Assimp reads no bones of .iqm files: export glTF or FBX"
+               : "";
+}
+
 /// How to use a file that has motions only.
 std::string motionHint(const std::string& path) {
     return "; its motions can move one: name it in the \"motions\" of a .skin file, or load the "
@@ -357,7 +364,8 @@ ImportedRig importRig(const std::string& path, const osgDB::Options* options) tr
     if (!isRigged(*source)) {
         const auto face = std::make_shared<SourceScene>(*source);
         if (!bindFace(*face))
-            failFile(path, none + (source->animations.empty() ? "" : motionHint(path)));
+            failFile(path,
+                     none + (source->animations.empty() ? formatHint(path) : motionHint(path)));
         source = face;
     }
     const SourceScene& scene = *source;

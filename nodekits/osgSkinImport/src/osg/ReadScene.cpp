@@ -210,8 +210,11 @@ osg::ref_ptr<osg::Node> readScene(const std::string& path, const osgDB::Options*
     const std::string& reason = read.message();
     // A pseudo-loader's name is not a file, and has its own reason.
     if (reason.empty() || read.notFound()) requireReadable(path, ReadLimits::of(options));
-    failFile(path, reason.empty() ? "neither Assimp nor OpenSceneGraph has a reader for this file"
-                                  : reason);
+    if (reason.empty() || reason.rfind("Could not find plugin", 0) == 0)
+        failFile(path, "neither this build of Assimp nor OpenSceneGraph reads ." +
+                           osgDB::getLowerCaseFileExtension(path) +
+                           " files; expected glTF, FBX or another format that they read");
+    failFile(path, reason);
 }
 
 } // namespace osgSkin

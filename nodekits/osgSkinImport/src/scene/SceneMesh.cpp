@@ -301,6 +301,19 @@ void addWeights(const SourceMesh& source, const SourceNode* above,
         if (index != kUnused) weights.entries.push_back({index, 1.0});
 }
 
+/// Removes morph targets that move nothing, and reports them.
+void dropEmptyMorphs(std::vector<MorphTarget>& morphs, const std::string& path) {
+    const auto empty =
+        std::stable_partition(morphs.begin(), morphs.end(),
+                              [](const MorphTarget& morph) { return !morph.vertices.empty(); });
+    if (empty == morphs.end()) return;
+    const auto count = morphs.end() - empty;
+    warn(path, count == 1 ? "morph target " + inQuotes(empty->name) + " moves no vertex; left out"
+                          : std::to_string(count) + " morph targets move no vertex; left out, " +
+                                inQuotes(empty->name) + " among them");
+    morphs.erase(empty, morphs.end());
+}
+
 } // namespace
 
 CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
@@ -325,6 +338,7 @@ CornerMesh readSceneMesh(const SourceScene& scene, const std::string& path,
             addMorphs(mesh, toScene, apart, indices, morphs, result);
             addWeights(mesh, above, indices, where, result);
         }
+    dropEmptyMorphs(result.morphs, path);
     return result;
 }
 
