@@ -7,6 +7,7 @@
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Retarget>
+#include <osgSkinRig/RetargetReport>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +89,35 @@ TEST(JointRoles, FileOverridesNames) {
         if (!named.roles[j].empty()) {
             EXPECT_EQ(roles.roles[j], named.roles[j]);
         }
+}
+
+/// Two characters merged into one file.
+TEST(JointRoles, OfSeveralFiguresTheFirstHasRoles) {
+    const RestSkeleton figure = importSkeleton(OSGSKIN_DATA "/thrower.bvh");
+    RestSkeleton scene;
+    scene.add("scene", -1, glm::dvec3(0.0));
+    std::vector<int> tops;
+    for (const std::string counter : {"", ".001"}) {
+        const int first = static_cast<int>(scene.joints.size());
+        tops.push_back(first);
+        for (const osgSkin::RestJoint& joint : figure.joints) {
+            scene.joints.push_back(joint);
+            scene.joints.back().name += counter;
+            scene.joints.back().parent = joint.parent < 0 ? 0 : first + joint.parent;
+        }
+    }
+    const JointRoles alone = recogniseJoints(figure), roles = recogniseJoints(scene);
+    for (std::size_t j = 0; j < figure.joints.size(); ++j) {
+        EXPECT_EQ(roles.roles[std::size_t(tops[0]) + j], alone.roles[j]) << figure.joints[j].name;
+        EXPECT_EQ(roles.roles[std::size_t(tops[1]) + j], "") << figure.joints[j].name;
+    }
+    RetargetReport report;
+    retarget(importMotion(OSGSKIN_DATA "/throw.bvh"), scene, {}, &report);
+    EXPECT_NE(report.text().find("the rig has 2 figures; the motion moves the first, and not that "
+                                 "of joint \"" +
+                                 scene.joints[std::size_t(tops[1])].name),
+              std::string::npos)
+        << report.text().substr(0, 600);
 }
 
 TEST(JointRoles, FamilyNeedsFourRoles) {

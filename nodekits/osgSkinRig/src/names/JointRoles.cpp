@@ -302,9 +302,8 @@ std::string roleOfNameAlone(const std::string& name) {
     return limbRoles({{{name, -1, glm::dvec3(0.0), {}}}}, {reading})[0];
 }
 
-} // namespace
-
-JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
+/// The roles of a skeleton's joints as one figure.
+JointRoles rolesOfFigure(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
     bool byCaller = false;
     JointRoles result = rolesByFamily(skeleton, extra, byCaller);
     const WordRoles words = wordRoles(skeleton);
@@ -337,6 +336,77 @@ JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<Joint
                                    ? partByWords(skeleton, static_cast<int>(j), words.readings[j])
                                    : partOfRole(role));
     }
+    return result;
+}
+
+constexpr std::size_t kMinFigure = 12; ///< joints
+
+/// A part of a skeleton: a joint and all joints below it.
+struct Figure {
+    std::vector<int> joints; ///< the topmost first
+    JointRoles roles;        ///< of these
+};
+
+/// The figures of a skeleton that has several, side by side, recognised by their names.
+std::vector<Figure> figuresOf(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
+    if (skeleton.joints.size() < 2 * kMinFigure) return {};
+    std::vector<std::vector<int>> children(skeleton.joints.size());
+    std::vector<std::size_t> below(skeleton.joints.size(), 1);
+    for (std::size_t j = skeleton.joints.size(); j-- > 1;) {
+        const auto parent = static_cast<std::size_t>(skeleton.joints[j].parent);
+        children[parent].push_back(static_cast<int>(j));
+        below[parent] += below[j];
+    }
+    const auto isLarge = [&](int j) { return below[static_cast<std::size_t>(j)] >= kMinFigure; };
+    std::vector<int> large{0};
+    while (large.size() == 1) {
+        std::vector<int>& next = children[static_cast<std::size_t>(large.front())];
+        next.erase(std::partition(next.begin(), next.end(), isLarge), next.end());
+        large = next;
+    }
+    std::sort(large.begin(), large.end());
+    std::vector<Figure> result;
+    for (const int top : large) {
+        Figure figure;
+        RestSkeleton own;
+        std::vector<int> indexOf(skeleton.joints.size(), -1);
+        for (auto j = static_cast<std::size_t>(top); j < skeleton.joints.size(); ++j) {
+            const RestJoint& joint = skeleton.joints[j];
+            const bool isTop = static_cast<int>(j) == top;
+            if (!isTop && indexOf[static_cast<std::size_t>(joint.parent)] < 0) continue;
+            indexOf[j] = static_cast<int>(own.joints.size());
+            own.joints.push_back(joint);
+            own.joints.back().parent = isTop ? -1 : indexOf[static_cast<std::size_t>(joint.parent)];
+            figure.joints.push_back(static_cast<int>(j));
+        }
+        figure.roles = rolesOfFigure(own, extra);
+        if (mainRoles(figure.roles.roles) >= kMinMain &&
+            figure.roles.family != kInferredFromGeometry)
+            result.push_back(std::move(figure));
+    }
+    if (result.size() < 2) result.clear();
+    return result;
+}
+
+} // namespace
+
+JointRoles recogniseJoints(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
+    JointRoles result = rolesOfFigure(skeleton, extra);
+    const std::vector<Figure> figures = figuresOf(skeleton, extra);
+    if (figures.empty()) return result;
+    const Figure& first = figures.front();
+    result.roles.assign(skeleton.joints.size(), {});
+    for (std::size_t j = 0; j < first.joints.size(); ++j)
+        result.roles[static_cast<std::size_t>(first.joints[j])] = first.roles.roles[j];
+    std::vector<JointPart> parts = std::move(result.parts);
+    result = madeOf(result.roles, first.roles.family);
+    result.parts = std::move(parts); // a head is one in every figure
+    return result;
+}
+
+std::vector<int> topsOfFigures(const RestSkeleton& skeleton, const std::vector<JointNames>& extra) {
+    std::vector<int> result;
+    for (const Figure& figure : figuresOf(skeleton, extra)) result.push_back(figure.joints.front());
     return result;
 }
 

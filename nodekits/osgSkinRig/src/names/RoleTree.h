@@ -4,6 +4,7 @@
 
 #include "names/NameReading.h"
 
+#include <osgSkinRig/JointNames>
 #include <osgSkinRig/RestSkeleton>
 
 #include <optional>
@@ -44,6 +45,12 @@ struct WordRoles {
 /// joint that carries both legs is the hips, whatever its name.
 /// \param skeleton its names and parents are read
 WordRoles wordRoles(const RestSkeleton& skeleton);
+
+/// The topmost joints of the figures of a skeleton that has several, side by side, whose names are
+/// known. recogniseJoints() gives roles to the first one's joints.
+/// \param extra see recogniseJoints()
+/// \return empty for less than two figures
+std::vector<int> topsOfFigures(const RestSkeleton& skeleton, const std::vector<JointNames>& extra);
 
 } // namespace osgSkin
 

@@ -2,6 +2,7 @@
 #include <osgSkinRig/Retarget>
 
 #include "names/BodyParts.h"
+#include "names/RoleTree.h"
 #include "retarget/MotionSteps.h"
 #include "retarget/Posture.h"
 #include "retarget/RetargetTarget.h"
@@ -339,6 +340,11 @@ std::vector<std::string> notesOf(const JointPairs& map, const RestSkeleton& rig,
     std::vector<std::string> notes;
     noteShape(map.rig, rig, "rig", notes);
     noteShape(map.motion, motion, "motion", notes);
+    if (const std::vector<int> tops = topsOfFigures(rig, options.names); !tops.empty())
+        notes.push_back("the rig has " + std::to_string(tops.size()) +
+                        " figures; the motion moves the first, and not that of joint " +
+                        listed({rig.joints[static_cast<std::size_t>(tops[1])].name}) +
+                        "; expected each in a file of its own");
     if (map.rig.known()) {
         const auto idle = idleJoints(map.rig, rig, [&](int j) {
             const auto joint = static_cast<std::size_t>(j);
