@@ -191,6 +191,50 @@ TEST(AutoPlayManager, IgnoresANestedCharacterWithItsOwnManager) {
 }
 
 /// An application's own visitor does the linking, as with OSG's managers.
+/// A character may have a hundred clips, of which each copy plays one.
+TEST(AutoPlayManager, CopiesShareChannelsUntilTheyPlay) {
+    const osg::ref_ptr<osgSkin::AutoPlayManager> manager = new osgSkin::AutoPlayManager;
+    osgAnimation::AnimationList originals = clips();
+    originals.back()->getChannels().pop_back(); // of a kind that is copied at once
+    manager->registerAnimations(originals);
+    const auto sceneOf = [](osgSkin::AutoPlayManager& own) {
+        osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform;
+        scene->setUpdateCallback(callbackOf<osgAnimation::UpdateMatrixTransform>("a"));
+        own.link(scene);
+        own.update(0.0);
+        return scene;
+    };
+    const auto scene = sceneOf(*manager);
+    const osg::ref_ptr<osgSkin::AutoPlayManager> copy =
+        osg::clone(manager.get(), osg::CopyOp::DEEP_COPY_ALL);
+    ASSERT_EQ(copy->getAnimationList().size(), 2u);
+    const auto channelOfCopy = [&](std::size_t clip) {
+        return copy->getAnimationList()[clip]->getChannels()[0].get();
+    };
+    for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_NE(copy->getAnimationList()[c], originals[c]);
+        EXPECT_EQ(channelOfCopy(c), originals[c]->getChannels()[0]);
+        EXPECT_EQ(copy->getAnimationList()[c]->getDuration(), originals[c]->getDuration());
+    }
+    const osgAnimation::Target* const target = originals[0]->getChannels()[0]->getTarget();
+    const auto another = sceneOf(*copy);
+    EXPECT_NE(channelOfCopy(0), originals[0]->getChannels()[0]) << "it plays";
+    EXPECT_EQ(channelOfCopy(1), originals[1]->getChannels()[0]);
+    EXPECT_EQ(originals[0]->getChannels()[0]->getTarget(), target);
+    const auto keysOf = [](osgAnimation::Channel& channel) {
+        return dynamic_cast<osgAnimation::Vec3LinearChannel&>(channel)
+            .getSamplerTyped()
+            ->getKeyframeContainerTyped();
+    };
+    EXPECT_EQ(keysOf(*channelOfCopy(0)), keysOf(*originals[0]->getChannels()[0]));
+    const auto& moved =
+        dynamic_cast<osgAnimation::UpdateMatrixTransform&>(*another->getUpdateCallback());
+    EXPECT_EQ(moved.getStackedTransforms()[0]->getTarget(), channelOfCopy(0)->getTarget());
+    copy->playAnimation(copy->getAnimationList()[1]);
+    copy->update(0.1);
+    EXPECT_NE(channelOfCopy(1), originals[1]->getChannels()[0]);
+}
+
 TEST(AutoPlayManager, UsesTheApplicationsLinkVisitor) {
     const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
     node->setUpdateCallback(callbackOf<osgAnimation::UpdateMatrixTransform>("a"));

@@ -43,6 +43,29 @@ TEST(UpdateDeformableSkin, JointWithoutABoneFollowsItsParent) {
     EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
+/// Such as bones that carry nothing, which osgUtil::Optimizer removes.
+TEST(UpdateDeformableSkin, DoesNotWarnAboutABoneThatNoVertexFollows) {
+    test::Tube tube;
+    const glm::dvec3 y(0, 1, 0);
+    tube.binding.joints.push_back({"tip", 2, {0, 6, 0}, y, y});
+    const osg::ref_ptr<osgSkin::DeformableSkin> skin = new osgSkin::DeformableSkin;
+    skin->setSkin(test::makeGeometry(tube), tube.model());
+    const test::Notices notices;
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    ASSERT_TRUE(update->pose(*skin, *makeBones()));
+    EXPECT_EQ(notices.text(), "");
+}
+
+TEST(UpdateDeformableSkin, WarnsOnceAboutSeveralMissingBones) {
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();
+    skeleton->getChild(0)->asGroup()->removeChild(0, 1);
+    const test::Notices notices;
+    const osg::ref_ptr<osgSkin::UpdateDeformableSkin> update = new osgSkin::UpdateDeformableSkin;
+    ASSERT_TRUE(update->pose(*makeSkin(), *skeleton));
+    EXPECT_TRUE(notices.say("has no bone \"middle\" and 1 more; these joints move"));
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
+}
+
 /// Such as the one that readSkeleton() adds above several roots.
 TEST(UpdateDeformableSkin, DoesNotWarnAboutARootWithoutABone) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = makeBones();

@@ -5,13 +5,17 @@
 
 #include <osgAnimation/Animation>
 #include <osgAnimation/AnimationManagerBase>
+#include <osgAnimation/Channel>
 #include <osgAnimation/LinkVisitor>
 #include <osgAnimation/Skeleton>
 #include <osgAnimation/UpdateBone>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <type_traits>
+#include <typeindex>
 #include <typeinfo>
 #include <unordered_map>
 #include <vector>
@@ -79,6 +83,65 @@ private:
     std::unordered_map<std::string, std::vector<osgAnimation::Channel*>> m_channels;
 };
 
+/// A channel of its own around the same keys. Its target is not read: another thread may set it.
+template <typename Kind>
+osg::ref_ptr<osgAnimation::Channel> sharingKeys(const osgAnimation::Channel& from) {
+    const osg::ref_ptr<Kind> result = new Kind;
+    result->setName(from.getName());
+    result->setTargetName(from.getTargetName());
+    if (const auto* sampler = static_cast<const Kind&>(from).getSamplerTyped()) {
+        using Keys = std::remove_const_t<
+            std::remove_pointer_t<decltype(sampler->getKeyframeContainerTyped())>>;
+        result->getOrCreateSampler()->setKeyframeContainer(
+            const_cast<Keys*>(sampler->getKeyframeContainerTyped())); // which nothing changes
+    }
+    return result;
+}
+
+using MakeChannel = osg::ref_ptr<osgAnimation::Channel> (*)(const osgAnimation::Channel&);
+
+/// Null for other kinds.
+MakeChannel makerOf(const osgAnimation::Channel& channel) {
+    using namespace osgAnimation;
+    static const std::unordered_map<std::type_index, MakeChannel> kMakers{
+        {typeid(Vec3LinearChannel), sharingKeys<Vec3LinearChannel>},
+        {typeid(QuatSphericalLinearChannel), sharingKeys<QuatSphericalLinearChannel>},
+        {typeid(FloatLinearChannel), sharingKeys<FloatLinearChannel>},
+        {typeid(Vec3StepChannel), sharingKeys<Vec3StepChannel>},
+        {typeid(QuatStepChannel), sharingKeys<QuatStepChannel>},
+        {typeid(FloatStepChannel), sharingKeys<FloatStepChannel>}};
+    const auto found = kMakers.find(typeid(channel));
+    return found == kMakers.end() ? nullptr : found->second;
+}
+
+/// An animation whose channels may be shared by copies.
+struct SharedClip : osgAnimation::Animation {
+    static bool isPossible(const osgAnimation::Animation& clip) {
+        const osgAnimation::ChannelList& channels = clip.getChannels();
+        return typeid(clip) == typeid(osgAnimation::Animation) &&
+               std::all_of(channels.begin(), channels.end(),
+                           [](const auto& channel) { return channel && makerOf(*channel); });
+    }
+    static osg::ref_ptr<osgAnimation::Animation> copy(const osgAnimation::Animation& clip) {
+        osg::ref_ptr<osgAnimation::Animation> result = new osgAnimation::Animation;
+        result->setName(clip.getName());
+        result->setDataVariance(clip.getDataVariance());
+        result->setPlayMode(clip.getPlayMode());
+        result->setWeight(clip.getWeight());
+        result->setStartTime(clip.getStartTime());
+        // addChannel() would compute the duration each time.
+        (*result).*(&SharedClip::_duration) = clip.*(&SharedClip::_duration);
+        (*result).*(&SharedClip::_originalDuration) = clip.*(&SharedClip::_originalDuration);
+        result->getChannels() = clip.getChannels();
+        return result;
+    }
+};
+
+void ownChannels(osgAnimation::Animation& clip) {
+    for (osg::ref_ptr<osgAnimation::Channel>& channel : clip.getChannels())
+        channel = makerOf(*channel)(*channel);
+}
+
 /// The time in a clip's keys, as osgAnimation::Animation::update() computes it.
 struct ClipTime : osgAnimation::Animation {
     /// \return false where the clip is over
@@ -121,9 +184,39 @@ AutoPlayManager::AutoPlayManager() = default;
 AutoPlayManager::~AutoPlayManager() = default;
 
 AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osgAnimation::BasicAnimationManager(
-                                                                    other, copyop) {
+    : osg::Object(other, copyop), osg::Callback(other, copyop),
+      osgAnimation::BasicAnimationManager() {
     // A copy plays nothing yet, so it starts itself, too.
+    _animations.reserve(other._animations.size());
+    for (const osg::ref_ptr<osgAnimation::Animation>& clip : other._animations) {
+        if (SharedClip::isPossible(*clip)) {
+            _animations.push_back(SharedClip::copy(*clip));
+            _sharing.insert(_animations.back());
+        } else {
+            _animations.push_back(osg::clone(clip.get(), copyop));
+        }
+    }
+    _automaticLink = other._automaticLink;
+    _needToLink = true;
+}
+
+/// The animations with channels of their own.
+osgAnimation::AnimationList AutoPlayManager::ownClips() const {
+    osgAnimation::AnimationList result;
+    for (const osg::ref_ptr<osgAnimation::Animation>& clip : _animations)
+        if (_sharing.count(clip) == 0) result.push_back(clip);
+    return result;
+}
+
+/// Gives animations that play channels of their own, and links these.
+void AutoPlayManager::ownPlayingClips() {
+    if (_sharing.empty()) return;
+    osgAnimation::AnimationList started;
+    for (const auto& layer : _animationsPlaying)
+        for (const osg::ref_ptr<osgAnimation::Animation>& clip : layer.second)
+            if (_sharing.erase(clip) > 0) started.push_back(clip);
+    for (const osg::ref_ptr<osgAnimation::Animation>& clip : started) ownChannels(*clip);
+    if (!started.empty() && _linked.valid()) linkClips(*_linked, started);
 }
 
 void AutoPlayManager::registerAnimations(const osgAnimation::AnimationList& animations) {
@@ -136,14 +229,24 @@ void AutoPlayManager::link(osg::Node* subgraph) {
     _skeleton = nullptr;
     _playsDirectly = false;
     if (_linker.valid()) { // the application's
+        for (const osg::ref_ptr<osgAnimation::Animation>& clip : _animations)
+            if (_sharing.erase(clip) > 0) ownChannels(*clip);
         osgAnimation::BasicAnimationManager::link(subgraph);
         return;
     }
-    const osg::ref_ptr<NameLinker> linker = new NameLinker(_animations);
-    subgraph->accept(*linker);
-    if (linker->skeletons.size() == 1) _skeleton = linker->skeletons.front();
+    _linked = subgraph;
+    _targets.clear();
+    linkClips(*subgraph, ownClips());
     _needToLink = false;
-    buildTargetReference();
+}
+
+void AutoPlayManager::linkClips(osg::Node& subgraph, const osgAnimation::AnimationList& clips) {
+    const osg::ref_ptr<NameLinker> linker = new NameLinker(clips);
+    subgraph.accept(*linker);
+    _skeleton = linker->skeletons.size() == 1 ? linker->skeletons.front() : nullptr;
+    for (const osg::ref_ptr<osgAnimation::Animation>& clip : clips)
+        for (const osg::ref_ptr<osgAnimation::Channel>& channel : clip->getChannels())
+            _targets.insert(channel->getTarget());
 }
 
 void AutoPlayManager::update(double time) {
@@ -155,6 +258,7 @@ void AutoPlayManager::update(double time) {
         _lastUpdate = time;
         if (!playing && !_animations.empty()) playAnimation(_animations.front());
     }
+    ownPlayingClips();
     // Unless it loops, OSG divides by the duration of a clip with a single key.
     for (const auto& layer : _animationsPlaying)
         for (const osg::ref_ptr<osgAnimation::Animation>& clip : layer.second)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/DeformableSkin>
 
+#include "nodes/OtherFormats.h"
+
 #include <osgSkin/DeformJob>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
@@ -468,6 +470,8 @@ void DeformableSkin::accept(osg::NodeVisitor& nv) {
     nv.pushOntoNodePath(this);
     if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
         cull(nv);
+    else if (writesOtherFormat(nv) && _model)
+        writeGeometry(*getDeformedGeometry(), *this, nv);
     else
         nv.apply(*this);
     nv.popFromNodePath();

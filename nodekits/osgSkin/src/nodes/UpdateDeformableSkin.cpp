@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -100,22 +103,39 @@ bool UpdateDeformableSkin::pose(DeformableSkin& skin, osgAnimation::Skeleton& sk
     return poseAs(Pose::Twist::Shortest, skin, skeleton);
 }
 
+namespace {
+
+/// Those of the joints without a bone that vertices follow. A root joint above several bones
+/// (readSkeleton()) stays at rest; osgUtil::Optimizer removes bones that carry nothing.
+std::vector<std::string> missedBones(const SkinModel& model,
+                                     const std::vector<std::string>& withoutBone) {
+    std::set<std::string> followed;
+    for (const SkinModel::Link& link : model.links())
+        followed.insert(model.joints()[link.joint].name);
+    std::vector<std::string> result;
+    for (const std::string& joint : withoutBone)
+        if (joint != model.joints().front().name && followed.count(joint) != 0)
+            result.push_back(joint);
+    return result;
+}
+
+} // namespace
+
 void UpdateDeformableSkin::findBones(DeformableSkin& skin, osgAnimation::Skeleton& skeleton) {
     const SkinModel* model = skin.getModel();
     _reader = BoneReader(model->joints(), skeleton, &skin);
     _model = model;
     _placesRevision = 0;
-    // A root joint above several bones (readSkeleton()) has no bone and stays at rest.
-    const bool toldMissing = _toldMissing;
-    for (const std::string& joint : _reader.missing()) {
-        if (joint == model->joints().front().name) continue;
-        _toldMissing = true;
-        if (!toldMissing)
-            OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
-                                  skeleton.getName() + "\" has no bone \"" + joint +
-                                  "\"; the joint moves with its parent")
-                     << std::endl;
-    }
+    const std::vector<std::string> missing = missedBones(*model, _reader.missing());
+    if (missing.empty() || _toldMissing) return;
+    _toldMissing = true;
+    const std::string rest = missing.size() == 1
+                                 ? "; the joint moves with its parent"
+                                 : " and " + std::to_string(missing.size() - 1) +
+                                       " more; these joints move with their parents";
+    OSG_WARN << onOneLine("osgSkin: skin \"" + skin.getName() + "\": skeleton \"" +
+                          skeleton.getName() + "\" has no bone \"" + missing.front() + "\"" + rest)
+             << std::endl;
 }
 
 /// The joints' skinning matrices from those of the bones.
