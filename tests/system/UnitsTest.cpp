@@ -404,6 +404,29 @@ TEST(Units, MissingOnesAreReportedForLargeBodies) {
     EXPECT_TRUE(loadCharacter(OSGSKIN_DATA "/thrower.skin").notes.empty());
 }
 
+/// Also of bodies whose joints are not recognised, if they are huge.
+TEST(Units, MissingOnesAreReportedForHugeBodies) {
+    const std::string folder = test::makeTestFolder();
+    for (const auto& [size, notes] : {std::pair(1.0, 0u), {100.0, 1u}}) {
+        for (const auto& [name, word] : {std::pair("body.obj", "v"), {"rig.bvh", "OFFSET"}}) {
+            std::istringstream in(test::fileText(test::kTubeFolder + name));
+            std::ofstream out(folder + "/" + name);
+            for (std::string line; std::getline(in, line);) {
+                std::istringstream words(line);
+                std::string first;
+                double x = 0.0, y = 0.0, z = 0.0;
+                if (words >> first >> x >> y >> z && first == word)
+                    out << word << ' ' << size * x << ' ' << size * y << ' ' << size * z << '\n';
+                else
+                    out << line << '\n';
+            }
+        }
+        const Character character =
+            loadCharacter(test::saveSkin(folder + "/tube.skin", "", "body.obj", "rig.bvh"));
+        EXPECT_EQ(character.notes.size(), notes) << size;
+    }
+}
+
 TEST(Units, OfOsgScenesAreSetByOption) {
     const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
     const osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");

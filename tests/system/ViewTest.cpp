@@ -235,6 +235,21 @@ TEST(View, RiggedModelsFaceTheViewer) {
     }
 }
 
+/// Joints without known names are told apart by the skeleton's shape.
+TEST(View, ModelsWithoutKnownNamesFaceTheViewer) {
+    const double h = std::sqrt(0.5);
+    for (const std::vector<double>& turn :
+         {std::vector<double>{0, 0, 0, 1}, {0, 1, 0, 0}, {0, h, 0, h}, {0, -h, 0, h}}) {
+        GltfPerson person(turn);
+        for (std::size_t n = 0; n < person.json["nodes"].size(); ++n)
+            person.json["nodes"][n]["name"] = "j" + std::to_string(n);
+        Character character = loadCharacter(person.save("unnamed.gltf"));
+        auto bones = bonesOf(character);
+        EXPECT_LT(bones["j6"].y(), bones["j5"].y() - 0.1) << "toes before the foot, " << turn[1];
+        EXPECT_GT(bones["j11"].x(), bones["j14"].x() + 0.3) << "left arm, " << turn[1];
+    }
+}
+
 TEST(View, BoundsFollowTheClip) {
     GltfPerson person({0, 0, 0, 1});
     const double height = 1.63; // from the toes to the top of the head, which nods

@@ -149,6 +149,14 @@ TEST(BindWeights, UnpaintedSkinFollowsTheNearestPainted) {
     EXPECT_NE(report.notes.front().find("2 vertices"), std::string::npos) << report.notes.front();
 }
 
+TEST(BindWeights, MeshWithFewUnpaintedVerticesIsWellPainted) {
+    VertexWeights weights(100, {{0, 0.5}, {1, 0.5}});
+    for (std::size_t v = 0; v < 5; ++v) weights[v].clear();
+    EXPECT_TRUE(isWellPainted(weights));
+    for (std::size_t v = 0; v < 15; ++v) weights[v].clear();
+    EXPECT_FALSE(isWellPainted(weights));
+}
+
 TEST(BindWeights, PartialInfluencesAreLimitedToFour) {
     const SkinMesh mesh = shapes::cylinder();
     const RestSkeleton skeleton = shapes::chainAlongY({1, 2, 3, 4, 5, 6, 6.5}, 7.0);

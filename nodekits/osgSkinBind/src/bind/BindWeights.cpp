@@ -137,6 +137,9 @@ std::vector<BindReport::Region> regionsOf(const Binding& binding) {
     return result;
 }
 
+/// Share of the vertices; the others take weights of their neighbours.
+constexpr double kPainted = 0.9;
+
 } // namespace
 
 bool isWellPainted(const VertexWeights& weights) {
@@ -153,7 +156,7 @@ bool isWellPainted(const VertexWeights& weights) {
     }
     const bool isPlaceholder = joints.empty() || (joints.size() == 1 && *joints.begin() == 0);
     return !isPlaceholder &&
-           static_cast<double>(painted) >= 0.98 * static_cast<double>(weights.size());
+           static_cast<double>(painted) >= kPainted * static_cast<double>(weights.size());
 }
 
 Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,

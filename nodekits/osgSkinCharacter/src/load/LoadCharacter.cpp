@@ -120,14 +120,18 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
 } // namespace
 
 void checkSize(Character& character, bool unitIsKnown) {
-    if (unitIsKnown || !character.roles.known()) return;
+    if (unitIsKnown) return;
+    // What is no known figure may be small, or a giraffe.
+    const bool isFigure = character.roles.known();
+    const double least = isFigure ? kMinHeight : 0.0;
+    const double most = isFigure ? kMaxHeight : 2.0 * kMaxHeight;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const glm::dvec3& position : character.body.mesh.positions) {
         const double z = (toOsg(position) * character.toWorld).z();
         low = std::min(low, z);
         high = std::max(high, z);
     }
-    if (high - low >= kMinHeight && high - low <= kMaxHeight) return;
+    if (high - low >= least && high - low <= most) return;
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note << character.file << ": the body is " << std::setprecision(3) << high - low

@@ -59,9 +59,12 @@ public:
 
 osg::Matrixd orientToFront(const JointRoles& roles, const JointCentres& centres,
                            const JointCentres& played) {
-    if (!roles.known() || roles.family == kInferredFromGeometry) return {};
+    if (!roles.known()) return {};
     const BodyDirections resting(roles, centres);
     const osg::Matrixd stand = standUp(resting);
+    // A shape tells front from back by its feet, but not a lying figure from one in other axes.
+    if (roles.family == kInferredFromGeometry)
+        return stand.isIdentity() ? faceAhead(resting, stand) : osg::Matrixd();
     if (played.empty() || stand.isIdentity()) return stand * faceAhead(resting, stand);
     const BodyDirections moving(roles, played);
     const osg::Matrixd other = standUp(moving);
