@@ -387,6 +387,30 @@ TEST_F(StandingPose, KeepsHeightsOfOwnMotion) {
     EXPECT_NEAR(retarget(own, rig).rootPositions[0].y, onFloor[0].y, 1e-6 * height);
 }
 
+/// Files may have no curves for joints that a clip does not move.
+TEST_F(StandingPose, KeepsHeightsOfOwnMotionWithoutFeet) {
+    Motion own;
+    own.frameTime = actor.frameTime;
+    own.frames = actor.frames;
+    own.rootPositions = retarget(actor, rig).rootPositions; // on the rig's floor
+    std::vector<int> indexOf;
+    for (const RestJoint& joint : rig.joints) {
+        const bool isKept = joint.name.find("Foot") == std::string::npos &&
+                            joint.name.find("Toe") == std::string::npos;
+        indexOf.push_back(isKept ? static_cast<int>(own.skeleton.joints.size()) : -1);
+        if (!isKept) continue;
+        own.skeleton.joints.push_back(joint);
+        if (joint.parent >= 0)
+            own.skeleton.joints.back().parent = indexOf[std::size_t(joint.parent)];
+    }
+    for (std::size_t f = 0; f < own.frames; ++f)
+        for (std::size_t j = 0; j < joints; ++j)
+            if (indexOf[j] >= 0) own.rotations.push_back(actor.rotations[f * joints + j]);
+    const Clip clip = retarget(own, rig);
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        ASSERT_LT(glm::distance(clip.rootPositions[f], own.rootPositions[f]), 1e-6) << f;
+}
+
 /// Authors name sides from their own view.
 TEST_F(StandingPose, WarnsAboutBackwardFeet) {
     RestSkeleton swapped = rig;

@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace osgSkin {
@@ -98,8 +99,8 @@ private:
 class RootPath {
 public:
     /// \param body the rig and its motion; it must outlive this
-    /// \param isSameBody see StandingPose
-    RootPath(const RetargetTarget& body, bool isSameBody);
+    /// \param bodyScale see StandingPose
+    RootPath(const RetargetTarget& body, std::optional<double> bodyScale);
 
     double scale() const { return _scale; }
 

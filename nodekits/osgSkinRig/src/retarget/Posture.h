@@ -134,8 +134,10 @@ struct StandingPose {
     /// copied.
     std::optional<SameSkeleton> copied;
 
-    bool isSame = false;     ///< whether the rig is the motion's skeleton
-    bool isSameBody = false; ///< and of the same proportions
+    bool isSame = false; ///< whether the rig is the motion's skeleton
+
+    /// From the motion's unit to the rig's, if they also have the same proportions.
+    std::optional<double> bodyScale;
 
     std::vector<std::string> notes; ///< for the report
 };

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -167,9 +168,9 @@ Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map
 }
 
 /// \param motion relative to a pose in which the actor stands
-/// \param isSameBody see StandingPose
-Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map, bool isSameBody,
-             RetargetReport* report) {
+/// \param bodyScale see StandingPose
+Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
+             std::optional<double> bodyScale, RetargetReport* report) {
     const std::vector<int>& motionJoint = map.motionJoint;
     const UprightFrames frames = findUprightFrames(rig, motion.skeleton, map);
     const RestSkeleton uprightRig = rotated(rig, frames.rigUpright);
@@ -186,7 +187,7 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
     clip.rotations.reserve(clip.frames * clip.joints);
 
     FootRoll feetRoll(body, alignment);
-    RootPath root(body, isSameBody);
+    RootPath root(body, bodyScale);
     MeasureFeet feet(body);
     StandingCheck standing(map.rig, map.motion);
     std::vector<glm::dquat> motionWorld;
@@ -384,9 +385,9 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     const StandingPose pose = findStandingPose(motion, rig, map, options.up);
     RetargetReport own;
     if (report == nullptr) report = &own;
-    Clip clip = pose.copied
-                    ? copied(motion, rig, map, *pose.copied, report)
-                    : aligned(pose.counted ? *pose.counted : motion, rig, map, pose.isSame, report);
+    Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, report)
+                            : aligned(pose.counted ? *pose.counted : motion, rig, map,
+                                      pose.bodyScale, report);
     if (pose.isSame && !motion.moves.empty()) addMoves(motion, rig, map.motionJoint, *report, clip);
     if (options.shareTwist && !pose.copied) {
         const std::vector<std::size_t> shared = shareHingeTwist(rig, map.rig, clip);

@@ -54,8 +54,8 @@ double floorHeight(std::vector<double> feet, double band) {
 
 } // namespace
 
-RootPath::RootPath(const RetargetTarget& body, bool isSameBody)
-    : _body(body), _isSameBody(isSameBody) {
+RootPath::RootPath(const RetargetTarget& body, std::optional<double> bodyScale)
+    : _body(body), _isSameBody(bodyScale.has_value()) {
     // The hips, or else the first joint that has a driver.
     const int joints = static_cast<int>(body.rig.rest().joints.size());
     while (_rigHips < joints && body.driver(_rigHips) != 0) ++_rigHips;
@@ -66,7 +66,7 @@ RootPath::RootPath(const RetargetTarget& body, bool isSameBody)
     const double motionHeight = hipHeight(body.motion, body.motionParts, _motionHips);
     // Without legs below the hips there is no height to compare: keep the motion's unit.
     if (_rigHeight > 1e-6 * body.rig.reach() && motionHeight > 1e-6 * body.motion.reach())
-        _scale = _rigHeight / motionHeight;
+        _scale = bodyScale.value_or(_rigHeight / motionHeight);
     // In the motion's zero pose the rig is at its rest position.
     _offset = body.rig.centre(_rigHips) - _scale * body.motion.centre(_motionHips);
 }

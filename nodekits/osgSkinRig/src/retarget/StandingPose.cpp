@@ -490,7 +490,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     const PostureJoints rigJoints(map.rig);
     const auto same = SameSkeleton::find(rig, motion.skeleton, map.motionJoint);
     result.isSame = same.has_value();
-    result.isSameBody = same && same->isSameBody;
+    if (same && same->isSameBody) result.bodyScale = same->scale;
     const bool isKnown = joints.complete();
     if (!isKnown && !(same && rigJoints.complete())) return result;
     const std::optional<Posture> zero =
