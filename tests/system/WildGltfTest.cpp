@@ -287,7 +287,6 @@ TEST(WildGltf, PartsPaintedForOneJointFollowIt) {
     expectExact(column.save("shirt.gltf"));
 }
 
-/// Sketchfab's layout: a scale of the topmost joint's node that every clip replaces.
 /// Blender's exporter puts vertices that nobody painted on a joint of its own.
 TEST(WildGltf, UnpaintedVerticesFollowTheirNeighbours) {
     test::GltfColumn column;
@@ -301,6 +300,7 @@ TEST(WildGltf, UnpaintedVerticesFollowTheirNeighbours) {
         EXPECT_NE(binding.joints[joint].name, "neutral_bone");
 }
 
+/// Sketchfab's layout: a scale of the topmost joint's node that every clip replaces.
 TEST(WildGltf, ClipsMayReplaceAJointsScale) {
     GltfColumn column;
     column.bend();
