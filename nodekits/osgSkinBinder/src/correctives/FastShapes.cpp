@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "correctives/MakeShapes.h"
 
+#include "correctives/JointSections.h"
 #include "correctives/ShapeFit.h"
 #include "correctives/ShapedJoint.h"
 #include "correctives/SkinRelaxation.h"
@@ -234,42 +235,6 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
     return posed + onset * inside * (pressed - h) * n;
 }
 
-/// Areas of the sections across both bones of a bent limb, at fixed distances from the joint.
-/// Points are relative to the joint's centre, one for each of its vertices.
-class JointSections {
-public:
-    static constexpr std::size_t kCount = 8; ///< of each bone
-    static constexpr double kStep = 0.4;     ///< distance between sections, in radii
-
-    /// One value for each section, the nearest to the joint first.
-    using Values = std::array<double, kCount>;
-    struct Sides {
-        Values parent{}, child{};
-    };
-
-    /// \param joint between limbs; must outlive this object
-    explicit JointSections(const ShapedJoint& joint);
-
-    const Sides& atRest() const { return _atRest; }
-
-    /// The depth of the flesh on the child's inner side beside the joint, over the sum of the
-    /// child's and the parent's.
-    double childDepth() const { return _childDepth; }
-
-    /// Areas of posed skin across the posed bones.
-    Sides areasOf(const FoldShape& fold, const std::vector<glm::dvec3>& posed) const;
-
-    /// Interpolates the sections' values smoothly at a distance along a bone, in radii. The result
-    /// falls to 0 beyond the last section.
-    static double valueAt(const Values& values, double radii);
-
-private:
-    const ShapedJoint& _joint;
-    std::vector<bool> _isChilds; ///< for each triangle
-    Sides _atRest;
-    double _childDepth = 0.5;
-};
-
 /// A joint's skin at one bend, and its targets by closed forms. Points are relative to the joint's
 /// centre, one for each of its vertices.
 class BentSkin {
@@ -334,84 +299,6 @@ constexpr double kGainKept = 0.5;
 /// errors from fitting the outside would make it intersect itself.
 constexpr double kInsideLimbs = 0.1;
 constexpr double kInsideTrunk = 20.0;
-
-/// Distances along a bone, in radii, between which the depth of flesh is measured.
-constexpr double kDepthFrom = 1.0, kDepthTo = 2.5;
-
-/// How far the child's share of the depth may exceed one half.
-constexpr double kMaxUneven = 0.08;
-
-/// One bone with the skin of its side of the joint.
-struct Bone {
-    glm::dvec3 along;    ///< unit, away from the joint
-    glm::dvec3 boundary; ///< direction, across `along`, towards the plane in which both sides meet
-    double slope;        ///< distance of that plane from the bone, per unit along the bone
-};
-
-/// \param share of the angle between both bones that belongs to this one's side
-Bone boneAt(const glm::dvec3& along, const glm::dvec3& other, double share) {
-    const glm::dvec3 across = other - glm::dot(along, other) * along;
-    const double sine = glm::length(across);
-    // A straight limb has no fold. Its sections are closed curves, so any origin will do.
-    if (sine < 0.1) return {along, glm::dvec3(0.0), 0.0};
-    const double angle = std::atan2(sine, glm::dot(along, other));
-    return {along, across / sine, std::tan(share * angle)};
-}
-
-/// Adds the triangle's part of each section's area: half the cross product of the edge in which the
-/// triangle meets the section. Sections near the joint are open in the plane in which both sides
-/// meet; the origin lies in that plane, so that the missing edge would add nothing.
-void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
-                 JointSections::Values& areas) {
-    std::array<double, 3> z{};
-    for (std::size_t i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
-    const auto [least, most] = std::minmax_element(z.begin(), z.end());
-    const double from = std::ceil(std::max(*least, 0.0) / step);
-    if (!(from < JointSections::kCount + 1)) return;
-    for (auto k = std::max<std::size_t>(1, static_cast<std::size_t>(from));
-         k <= JointSections::kCount && double(k) * step < *most; ++k) {
-        const double at = double(k) * step;
-        const glm::dvec3 origin = at * (bone.along + bone.slope * bone.boundary);
-        glm::dvec3 enter(0.0), leave(0.0);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t j = (i + 1) % 3;
-            if ((z[i] < at) == (z[j] < at)) continue;
-            const glm::dvec3 x =
-                corners[i] + (at - z[i]) / (z[j] - z[i]) * (corners[j] - corners[i]) - origin;
-            (z[i] < at ? enter : leave) = x;
-        }
-        areas[k - 1] += 0.5 * glm::dot(bone.along, glm::cross(leave, enter));
-    }
-}
-
-JointSections::Sides areasAcross(const ShapedJoint& joint, const std::vector<bool>& isChilds,
-                                 const Bone& parent, const Bone& child, const Points& points) {
-    JointSections::Sides areas;
-    for (std::size_t t = 0; t < joint.triangles.size(); ++t) {
-        const auto& triangle = joint.triangles[t];
-        addTriangle({points[triangle[0]], points[triangle[1]], points[triangle[2]]},
-                    isChilds[t] ? child : parent, JointSections::kStep * joint.radius,
-                    isChilds[t] ? areas.child : areas.parent);
-    }
-    return areas;
-}
-
-/// The depth of the flesh on the inner side beside the joint (90th percentile); 0 if not known.
-double depthOf(const ShapedJoint& joint, const glm::dvec3& along) {
-    if (!(glm::length(joint.hinge) > 0.0)) return 0.0;
-    const glm::dvec3 inwards =
-        glm::normalize(glm::cross(joint.hinge, glm::dot(along, joint.bone) > 0.0 ? along : -along));
-    std::vector<double> depths;
-    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
-        const double z = glm::dot(along, vertex.from) / joint.radius;
-        if (z > kDepthFrom && z < kDepthTo && vertex.limb > 0.5)
-            depths.push_back(glm::dot(inwards, vertex.from));
-    }
-    if (depths.size() < 8) return 0.0;
-    const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
-    std::nth_element(depths.begin(), at, depths.end());
-    return std::max(*at, 0.0);
-}
 
 double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
@@ -487,37 +374,6 @@ private:
     double _last = 0.0;
 };
 
-JointSections::JointSections(const ShapedJoint& joint) : _joint(joint) {
-    const double child = depthOf(joint, joint.bone), parent = depthOf(joint, -joint.above);
-    if (child > 0.0 && parent > 0.0)
-        _childDepth = std::clamp(child / (child + parent), 0.5, 0.5 + kMaxUneven);
-    Points points;
-    for (const ShapedJoint::Vertex& vertex : joint.vertices) points.push_back(vertex.from);
-    const glm::dvec3 normal = joint.above + joint.bone;
-    for (const auto& t : joint.triangles)
-        _isChilds.push_back(glm::dot(points[t[0]] + points[t[1]] + points[t[2]], normal) > 0.0);
-    _atRest = areasAcross(joint, _isChilds, boneAt(-joint.above, joint.bone, 1.0 - _childDepth),
-                          boneAt(joint.bone, -joint.above, _childDepth), points);
-}
-
-JointSections::Sides JointSections::areasOf(const FoldShape& fold, const Points& posed) const {
-    return areasAcross(_joint, _isChilds, boneAt(-fold.above, fold.bone, 1.0 - _childDepth),
-                       boneAt(fold.bone, -fold.above, _childDepth), posed);
-}
-
-double JointSections::valueAt(const Values& values, double radii) {
-    // Quadratic B-splines: continuous slopes.
-    const double t = radii / kStep - 1.0;
-    const auto middle = static_cast<std::ptrdiff_t>(std::floor(std::clamp(t, -2.0, 100.0) + 0.5));
-    const double f = std::clamp(t, -2.0, 100.0) - double(middle);
-    const auto at = [&](std::ptrdiff_t i) {
-        if (i >= static_cast<std::ptrdiff_t>(kCount)) return 0.0;
-        return values[static_cast<std::size_t>(std::max<std::ptrdiff_t>(i, 0))];
-    };
-    return 0.5 * (0.5 - f) * (0.5 - f) * at(middle - 1) + (0.75 - f * f) * at(middle) +
-           0.5 * (0.5 + f) * (0.5 + f) * at(middle + 1);
-}
-
 BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare)
     : _joint(joint), _bend(bend),
       _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)) {
@@ -553,14 +409,15 @@ Points BentSkin::widened(const Points& points, const JointSections::Sides& share
 /// Shares by which sections are widened to keep their areas.
 JointSections::Sides BentSkin::sharesFor(const Points& shaped,
                                          const JointSections& sections) const {
-    const JointSections::Sides areas = sections.areasOf(_fold, shaped);
+    const JointSections::Sides areas = sections.areasOf(_fold.above, _fold.bone, shaped);
     WidthSearch parent(sections.atRest().parent, areas.parent),
         child(sections.atRest().child, areas.child);
     for (const double width : kWidths) {
         JointSections::Sides all;
         all.parent.fill(width);
         all.child.fill(width);
-        const JointSections::Sides wide = sections.areasOf(_fold, widened(shaped, all));
+        const JointSections::Sides wide =
+            sections.areasOf(_fold.above, _fold.bone, widened(shaped, all));
         parent.add(width, wide.parent);
         child.add(width, wide.child);
     }
