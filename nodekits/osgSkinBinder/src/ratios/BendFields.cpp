@@ -38,6 +38,10 @@ constexpr Widths kOther{1.0, 1.0};
 constexpr Widths kSpine{0.6, 0.6};
 constexpr Widths kCollar{0.72, 0.72};
 
+/// An arm's skin follows its collar bone wholly. But a raised collar bone as short as a toddler's,
+/// in limb radii, would end in a point, so there some skin below the shoulder's joint does not.
+constexpr double kShortCollar = 2.55, kMostBelowShoulder = 0.4;
+
 /// A rigid part begins close behind its joint, and the skin above takes up more of the rotation.
 constexpr Widths kRigid{1.5, 0.6};
 
@@ -257,6 +261,20 @@ std::vector<bool> skinOf(const BinaryField& binary, int joint) {
     return result;
 }
 
+/// The skin that follows the collar bone of an arm wholly (kShortCollar).
+std::vector<bool> armSkin(const BinaryField& binary, int joint, const std::vector<double>& radii) {
+    std::vector<bool> result = skinOf(binary, joint);
+    const PlannedJoint& arm = binary.joints[static_cast<std::size_t>(joint)];
+    const glm::dvec3 bone = arm.boneEnd - arm.centre;
+    const double radius = radii[static_cast<std::size_t>(joint)];
+    const double below =
+        std::min(2.0 * (kShortCollar * radius - arm.lengthAbove), kMostBelowShoulder * radius);
+    for (std::size_t v = 0; v < result.size(); ++v)
+        if (glm::dot(binary.mesh.positions[v] - arm.centre, bone) < below * arm.boneLength)
+            result[v] = false;
+    return result;
+}
+
 /// Narrows a width, down to `least`, if `excess`, the field's value in the middle third, exceeds
 /// `most`. At a given distance a field decreases about with the fifth power of its width.
 bool narrow(double& width, double least, double excess, double most) {
@@ -369,8 +387,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     Widths widths =
         firstWidths(binary.joints, joint, limb, onLimb, elbowOrKnee, radii, options.smoothing);
     const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
-    const std::vector<bool> isHeld = // an arm follows its collar bone fully
-        planned.isCollarBone() ? skinOf(binary, planned.child) : std::vector<bool>();
+    const std::vector<bool> isHeld =
+        planned.isCollarBone() ? armSkin(binary, planned.child, radii) : std::vector<bool>();
     std::vector<double> share;
     if (limb && binary.joints[above].isOfTrunk())
         share = gradientFactor(binary.mesh,
