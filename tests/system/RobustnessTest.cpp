@@ -233,7 +233,8 @@ TEST(Robustness, BakeWithoutOutputListsOutputs) {
     const auto result = test::runBake("'" + kParts + "good.skin'", folder.string());
     EXPECT_EQ(result.status, 2);
     test::expectContains(result.err,
-                         "nothing to write: expected --out, --rest, --binding, --pose or --walker");
+                         "nothing to write: expected --out, --rest, --binding, --pose, --rigged or "
+                         "--walker");
     test::expectContains(result.err, " frames, for example for --out frame_%04d.obj");
     for (const auto& entry : fs::directory_iterator(folder))
         EXPECT_EQ(entry.path().extension(), ".txt") << entry; // what the program has said
