@@ -183,9 +183,11 @@ struct ClipTime : osgAnimation::Animation {
 AutoPlayManager::AutoPlayManager() = default;
 AutoPlayManager::~AutoPlayManager() = default;
 
+// The base's copy constructor would copy every channel.
+// NOLINTNEXTLINE(bugprone-copy-constructor-init)
 AutoPlayManager::AutoPlayManager(const AutoPlayManager& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop),
-      osgAnimation::BasicAnimationManager() {
+      osgAnimation::BasicAnimationManager() { // NOLINT(readability-redundant-member-init)
     // A copy plays nothing yet, so it starts itself, too.
     _animations.reserve(other._animations.size());
     for (const osg::ref_ptr<osgAnimation::Animation>& clip : other._animations) {
