@@ -359,6 +359,9 @@ private:
         const std::pair<double, std::uint32_t> entry{distance(vertex, _targets[helper].ratios),
                                                      std::uint32_t(helper)};
         auto& candidates = vertex.candidates;
+        // refine() may have found a helper that was made just now.
+        if (std::find(candidates.begin(), candidates.end(), entry) != candidates.end())
+            return false;
         const auto near = std::ptrdiff_t(std::min(candidates.size(), kNear - 1));
         if (candidates.size() >= kNear) {
             if (candidates[kNear - 1] <= entry) return false;

@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <map>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,20 @@ RiggedComparison compareRigged(const std::string& rigged, const std::string& cli
     return result;
 }
 
+/// Each weight of a vertex belongs to another joint, as glTF demands.
+void expectJointsOnce(const GltfReference& rigged) {
+    const nlohmann::json& attributes = rigged.json["meshes"][0]["primitives"][0]["attributes"];
+    std::set<std::pair<std::size_t, double>> seen; // vertex, joint
+    for (int set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set) {
+        const auto joints = rigged.accessor(attributes["JOINTS_" + std::to_string(set)]);
+        const auto weights = rigged.accessor(attributes["WEIGHTS_" + std::to_string(set)]);
+        for (std::size_t i = 0; i < joints.size(); ++i)
+            if (weights[i] > 0.0) {
+                EXPECT_TRUE(seen.emplace(i / 4, joints[i]).second) << "vertex " << i / 4;
+            }
+    }
+}
+
 /// A character, and a clip of it.
 struct RiggedCase {
     const char* name;
@@ -147,6 +162,7 @@ protected:
         const RiggedComparison found =
             compareRigged(folder + "/rigged.glb", GetParam().clip, folder, GetParam().rate, radii);
         EXPECT_EQ(found.poses, 37u);
+        expectJointsOnce(GltfReference(folder + "/rigged.glb"));
         std::cout << GetParam().name << arguments << ": " << found.radii << " r\n";
         return found.radii;
     }
@@ -170,6 +186,7 @@ TEST_P(RiggedCharacter, IsFarOffWithoutHelpers) {
 
 TEST_P(RiggedCharacter, IsNearerWithMoreHelpersAndWeights) {
     const std::string clip = " --motion " + GetParam().clip;
+    EXPECT_LE(error(" --helpers 16" + clip), 0.006);
     EXPECT_LE(error(" --helpers 16 --weights 8" + clip), 0.006);
     const nlohmann::json json = GltfReference(folder + "/rigged.glb").json;
     EXPECT_EQ(json["meshes"][0]["primitives"][0]["attributes"].count("WEIGHTS_1"), 1u);
