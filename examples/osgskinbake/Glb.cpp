@@ -47,24 +47,38 @@ std::size_t GlbBuffer::addAccessor(std::size_t begin, std::size_t count, const c
     return _accessors.size() - 1;
 }
 
-std::size_t GlbBuffer::addVectors(const std::vector<glm::dvec3>& vectors, bool withRange) {
-    const std::size_t begin = size();
-    // In float, so that the range matches the stored values.
+namespace {
+
+/// The smallest and largest of each axis, in float, so that they match the stored values.
+struct Range {
     std::array<float, 3> low, high;
-    low.fill(std::numeric_limits<float>::max());
-    high.fill(std::numeric_limits<float>::lowest());
-    for (const glm::dvec3& v : vectors) {
-        _bytes.add(v);
+
+    Range() {
+        low.fill(std::numeric_limits<float>::max());
+        high.fill(std::numeric_limits<float>::lowest());
+    }
+    void add(const glm::dvec3& v) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto value = static_cast<float>(v[static_cast<int>(axis)]);
             low[axis] = std::min(low[axis], value);
             high[axis] = std::max(high[axis], value);
         }
     }
+};
+
+} // namespace
+
+std::size_t GlbBuffer::addVectors(const std::vector<glm::dvec3>& vectors, bool withRange) {
+    const std::size_t begin = size();
+    Range range;
+    for (const glm::dvec3& v : vectors) {
+        _bytes.add(v);
+        range.add(v);
+    }
     const std::size_t index = addAccessor(begin, vectors.size(), "VEC3", kFloat, Use::Vertices);
     if (withRange) {
-        _accessors[index]["min"] = low;
-        _accessors[index]["max"] = high;
+        _accessors[index]["min"] = range.low;
+        _accessors[index]["max"] = range.high;
     }
     return index;
 }
@@ -111,32 +125,25 @@ std::size_t GlbBuffer::addFloats(const std::vector<float>& numbers, const char* 
 
 std::size_t GlbBuffer::addSparse(std::size_t count, const std::vector<std::uint32_t>& vertices,
                                  const std::vector<glm::dvec3>& vectors) {
-    std::array<float, 3> low{}, high{};
+    Range range;
+    if (vertices.size() < count) range.add(glm::dvec3(0.0)); // the others
     nlohmann::json accessor{{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}};
     if (!vertices.empty()) {
         std::size_t begin = size();
         for (const std::uint32_t vertex : vertices) _bytes.add(vertex);
         const std::size_t indices = addView(begin, Use::Data);
         begin = size();
-        if (vertices.size() == count) {
-            low.fill(std::numeric_limits<float>::max());
-            high.fill(std::numeric_limits<float>::lowest());
-        }
         for (const glm::dvec3& v : vectors) {
             _bytes.add(v);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const auto value = static_cast<float>(v[static_cast<int>(axis)]);
-                low[axis] = std::min(low[axis], value);
-                high[axis] = std::max(high[axis], value);
-            }
+            range.add(v);
         }
         accessor["sparse"] = {
             {"count", vertices.size()},
             {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
             {"values", {{"bufferView", addView(begin, Use::Data)}}}};
     }
-    accessor["min"] = low;
-    accessor["max"] = high;
+    accessor["min"] = range.low;
+    accessor["max"] = range.high;
     _accessors.push_back(std::move(accessor));
     return _accessors.size() - 1;
 }

@@ -20,7 +20,7 @@ struct RiggedClip {
     std::vector<std::vector<float>> morphs; ///< of each pose, the weights of Character::morphs()
 };
 
-/// What a rigged file has, for a summary.
+/// The contents of a rigged file in numbers.
 struct RiggedReport {
     std::size_t joints = 0, helpers = 0, morphs = 0, correctives = 0; ///< numbers of them
     double worst = 0.0;                                               ///< LinearSkin::worst

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kWalkers = 1000;
 
-/// What osgskinbake writes of data/pedestrian.skin.
+/// The walker that osgskinbake makes of data/pedestrian.skin.
 const std::string& savedWalker() {
     static const SavedFile walker(
         *osgSkin::makeWalker(*load(OSGSKIN_DATA "/pedestrian.skin", "colours=merged")),

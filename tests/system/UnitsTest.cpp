@@ -375,24 +375,27 @@ TEST(Units, OfBakedGlbAreMetres) {
     EXPECT_NEAR(osgSkin::importMesh(folder + "/rest.obj").mesh.size(), 200.0, 1e-3);
 }
 
+/// Copies a text file, with the vectors of its lines that begin with a word multiplied.
+void copyScaled(const std::string& from, const std::string& to, const std::string& word,
+                double factor) {
+    std::istringstream in(test::fileText(from));
+    std::ofstream out(to);
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string first;
+        double x = 0.0, y = 0.0, z = 0.0;
+        if (words >> first >> x >> y >> z && first == word)
+            out << word << ' ' << factor * x << ' ' << factor * y << ' ' << factor * z << '\n';
+        else
+            out << line << '\n';
+    }
+}
+
 /// The thrower, eight times as large in files that state no unit.
 TEST(Units, MissingOnesAreReportedForLargeBodies) {
     const std::string folder = test::makeTestFolder();
-    const auto scaled = [&](const std::string& name, const std::string& word) {
-        std::istringstream in(test::fileText(OSGSKIN_DATA "/" + name));
-        std::ofstream out(folder + "/" + name);
-        for (std::string line; std::getline(in, line);) {
-            std::istringstream words(line);
-            std::string first;
-            double x = 0.0, y = 0.0, z = 0.0;
-            if (words >> first >> x >> y >> z && first == word)
-                out << word << ' ' << 8.0 * x << ' ' << 8.0 * y << ' ' << 8.0 * z << '\n';
-            else
-                out << line << '\n';
-        }
-    };
-    scaled("thrower.obj", "v");
-    scaled("thrower.bvh", "OFFSET");
+    copyScaled(OSGSKIN_DATA "/thrower.obj", folder + "/thrower.obj", "v", 8.0);
+    copyScaled(OSGSKIN_DATA "/thrower.bvh", folder + "/thrower.bvh", "OFFSET", 8.0);
     const auto notesOf = [&](const std::string& unit) {
         std::ofstream(folder + "/a.skin")
             << R"({"osgskin": 1, "mesh": "thrower.obj", "skeleton": "thrower.bvh")" << unit << "}";
@@ -408,19 +411,8 @@ TEST(Units, MissingOnesAreReportedForLargeBodies) {
 TEST(Units, MissingOnesAreReportedForHugeBodies) {
     const std::string folder = test::makeTestFolder();
     for (const auto& [size, notes] : {std::pair(1.0, 0u), {100.0, 1u}}) {
-        for (const auto& [name, word] : {std::pair("body.obj", "v"), {"rig.bvh", "OFFSET"}}) {
-            std::istringstream in(test::fileText(test::kTubeFolder + name));
-            std::ofstream out(folder + "/" + name);
-            for (std::string line; std::getline(in, line);) {
-                std::istringstream words(line);
-                std::string first;
-                double x = 0.0, y = 0.0, z = 0.0;
-                if (words >> first >> x >> y >> z && first == word)
-                    out << word << ' ' << size * x << ' ' << size * y << ' ' << size * z << '\n';
-                else
-                    out << line << '\n';
-            }
-        }
+        copyScaled(test::kTubeFolder + "body.obj", folder + "/body.obj", "v", size);
+        copyScaled(test::kTubeFolder + "rig.bvh", folder + "/rig.bvh", "OFFSET", size);
         const Character character =
             loadCharacter(test::saveSkin(folder + "/tube.skin", "", "body.obj", "rig.bvh"));
         EXPECT_EQ(character.notes.size(), notes) << size;

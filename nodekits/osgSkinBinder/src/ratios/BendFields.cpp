@@ -39,8 +39,9 @@ constexpr Widths kSpine{0.6, 0.6};
 constexpr Widths kCollar{0.72, 0.72};
 
 /// An arm's skin follows its collar bone wholly. But a raised collar bone as short as a toddler's,
-/// in limb radii, would end in a point, so there some skin below the shoulder's joint does not.
-constexpr double kShortCollar = 2.55, kMostBelowShoulder = 0.4;
+/// in limb radii, would end in a point, so there the skin around the shoulder's joint, down to
+/// kFreeBelowShoulder radii below it, is free.
+constexpr double kShortCollar = 2.55, kFreeBelowShoulder = 0.4;
 
 /// A rigid part begins close behind its joint, and the skin above takes up more of the rotation.
 constexpr Widths kRigid{1.5, 0.6};
@@ -268,7 +269,7 @@ std::vector<bool> armSkin(const BinaryField& binary, int joint, const std::vecto
     const glm::dvec3 bone = arm.boneEnd - arm.centre;
     const double radius = radii[static_cast<std::size_t>(joint)];
     const double below =
-        std::min(2.0 * (kShortCollar * radius - arm.lengthAbove), kMostBelowShoulder * radius);
+        std::min(2.0 * (kShortCollar * radius - arm.lengthAbove), kFreeBelowShoulder * radius);
     for (std::size_t v = 0; v < result.size(); ++v)
         if (glm::dot(binary.mesh.positions[v] - arm.centre, bone) < below * arm.boneLength)
             result[v] = false;

@@ -121,7 +121,7 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
 
 void checkSize(Character& character, bool unitIsKnown) {
     if (unitIsKnown) return;
-    // What is no known figure may be small, or a giraffe.
+    // A figure without known joints may be a mouse or a giraffe.
     const bool isFigure = character.roles.known();
     const double least = isFigure ? kMinHeight : 0.0;
     const double most = isFigure ? kMaxHeight : 2.0 * kMaxHeight;

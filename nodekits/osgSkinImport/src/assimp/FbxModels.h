@@ -20,7 +20,7 @@
 
 namespace osgSkin {
 
-/// What an animation moves of a model.
+/// The parts of a model's transform that an animation changes.
 enum FbxChannel : std::size_t { Translation, Rotation, Scaling };
 
 /// Translation, rotation in degrees, and scale, before all else.
