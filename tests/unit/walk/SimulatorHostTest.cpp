@@ -153,6 +153,22 @@ TEST(SimulatorHost, WalkerUnderSeveralTransformsStandsAndWarnsOnce) {
     EXPECT_NEAR(walker->speed(), 1.5, 0.05);
 }
 
+TEST(SimulatorHost, SharedWalkerStandsInAViewersScene) {
+    Host host;
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera; // as a viewer's, above its scene
+    camera->addChild(host.scene);
+    const osg::ref_ptr<osgSkin::Walker> walker = walking::makeFigureWalker();
+    const auto first = host.add(walker), second = host.add(walker);
+    const test::Notices notices;
+    for (int i = 0; i < 60; ++i) {
+        first->setPosition({0.03 * i, 0, 0});
+        second->setPosition({0.03 * i, 10, 0});
+        host.show(0.02 * i);
+    }
+    EXPECT_EQ(notices.lines(), 1u);
+    EXPECT_EQ(walker->speed(), 0.0);
+}
+
 TEST(SimulatorHost, WalkerUnderTwoGroupsOfOnePlaceWalks) {
     Host host;
     const osg::ref_ptr<osgSkin::Walker> walker = walking::makeFigureWalker();

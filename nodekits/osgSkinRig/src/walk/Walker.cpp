@@ -14,6 +14,7 @@
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -172,12 +173,15 @@ void Walker::setMotion(const osg::Vec3d& position, double heading, double speed,
     _walking->player->pose();
 }
 
-/// Whether a traversal comes here by several transforms.
+/// Whether a traversal comes here by several transforms. It may begin below a viewer's camera.
 bool Walker::isShared(const osg::NodeVisitor& nv) {
-    const osg::Node* const top = nv.getNodePath().front();
+    osg::Node* const top = nv.getNodePath().front();
     const osg::Matrixd here = placeOf(nv);
-    for (const osg::NodePath& path : getParentalNodePaths())
-        if (path.front() == top && osg::computeLocalToWorld(path) != here) return true;
+    for (const osg::NodePath& path : getParentalNodePaths()) {
+        const auto begin = std::find(path.begin(), path.end(), top);
+        if (begin != path.end() && osg::computeLocalToWorld({begin, path.end()}) != here)
+            return true;
+    }
     return false;
 }
 
