@@ -36,8 +36,14 @@ struct FoldShape {
     glm::dvec3 normal;
 };
 
-/// How much a vertex belongs to the child's side of the joint, 0 to 1.
-double childShare(const FoldShape& fold, const glm::dvec3& rest);
+/// A vertex at rest, as all bends need it.
+struct RestPoint {
+    glm::dvec3 at;
+    double height;     ///< signed distance from the plane that bisects the joint; positive on the
+                       ///< child's side
+    double childShare; ///< how much it belongs to the child's side of the joint, 0 to 1
+    double distance;   ///< from the bone, blended where both sides of the joint meet
+};
 
 /// The remaining bulge, in limb radii.
 constexpr double kBulgeLeft = 0.005;
@@ -85,15 +91,9 @@ glm::dvec3 boneOf(const FoldShape& fold, const glm::dvec3& posed) {
     return glm::dot(fold.above + fold.bone, posed) < 0.0 ? -fold.above : fold.bone;
 }
 
-/// Signed distance at rest from the plane that bisects the joint; positive on the child's side.
-double heightAtRest(const FoldShape& fold, const glm::dvec3& rest) {
-    return glm::dot(rest, glm::normalize(fold.above + fold.boneRest));
-}
-
 /// Signed distance from the bisecting plane that pressed skin keeps.
-double limitOf(const FoldShape& fold, const glm::dvec3& rest) {
-    const double h0 = heightAtRest(fold, rest);
-    return kGap * fold.radius * h0 / (std::abs(h0) + fold.radius);
+double limitOf(const FoldShape& fold, const RestPoint& rest) {
+    return kGap * fold.radius * rest.height / (std::abs(rest.height) + fold.radius);
 }
 
 /// A smooth minimum of `wish` and `room`, never more than either; both at least 0.
@@ -103,13 +103,21 @@ double limitedTo(double wish, double room) {
     return wish / std::sqrt(std::sqrt(1.0 + square * square));
 }
 
-/// Distance from the bone at rest, blended where both sides of the joint meet.
-double distanceAtRest(const FoldShape& fold, const glm::dvec3& rest) {
-    const auto from = [&](const glm::dvec3& bone) {
-        const double z = std::max(glm::dot(bone, rest), 0.0);
-        return std::sqrt(std::max(glm::dot(rest, rest) - z * z, 0.0));
-    };
-    return glm::mix(from(-fold.above), from(fold.boneRest), childShare(fold, rest));
+std::vector<RestPoint> restPointsOf(const ShapedJoint& joint) {
+    const glm::dvec3 normal = glm::normalize(joint.above + joint.bone);
+    std::vector<RestPoint> points;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
+        const glm::dvec3& at = vertex.from;
+        const auto from = [&at](const glm::dvec3& bone) {
+            const double z = std::max(glm::dot(bone, at), 0.0);
+            return std::sqrt(std::max(glm::dot(at, at) - z * z, 0.0));
+        };
+        const double height = glm::dot(at, normal);
+        const double childs = hermiteRatio(0.5 + 0.5 * height / (kSideWidth * joint.radius));
+        points.push_back(
+            {at, height, childs, glm::mix(from(-joint.above), from(joint.bone), childs)});
+    }
+    return points;
 }
 
 /// A bone that skin is restored to.
@@ -121,13 +129,13 @@ struct RestoringBone {
 };
 
 /// The displacement across the bone.
-glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const glm::dvec3& rest,
+glm::dvec3 restoringMove(const FoldShape& fold, const RestoringBone& bone, const RestPoint& rest,
                          const glm::dvec3& clamped) {
     const glm::dvec3& m = bone.posed;
     const double z = glm::dot(m, clamped);
     const double share = hermiteRatio(z / (kRestoreFull * fold.radius));
     if (!(share > 0.0)) return glm::dvec3(0.0);
-    const glm::dvec3 radial = bone.turn * (rest - glm::dot(bone.atRest, rest) * bone.atRest);
+    const glm::dvec3 radial = bone.turn * (rest.at - glm::dot(bone.atRest, rest.at) * bone.atRest);
     glm::dvec3 move = share * (radial - (clamped - z * m));
     const glm::dvec3 inwards = fold.bone - fold.above;
     const glm::dvec3 across = inwards - glm::dot(m, inwards) * m;
@@ -164,9 +172,9 @@ glm::dvec3 clampBulge(const FoldShape& fold, const glm::dvec3& rest, const glm::
 /// stops before the plane in which both sides meet.
 /// \param clamped of clampBulge()
 /// \param turn the whole bend with the vertex's own share of the twist
-glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& clamped,
+glm::dvec3 restoreSection(const FoldShape& fold, const RestPoint& rest, const glm::dvec3& clamped,
                           const glm::dquat& turn) {
-    const double childs = childShare(fold, rest);
+    const double childs = rest.childShare;
     const glm::dquat unit(1.0, 0.0, 0.0, 0.0);
     glm::dvec3 moved(0.0);
     if (childs > 0.0)
@@ -175,11 +183,6 @@ glm::dvec3 restoreSection(const FoldShape& fold, const glm::dvec3& rest, const g
         moved += (1.0 - childs) *
                  restoringMove(fold, {-fold.above, -fold.above, unit, -1.0}, rest, clamped);
     return clamped + moved;
-}
-
-double childShare(const FoldShape& fold, const glm::dvec3& rest) {
-    const double h0 = heightAtRest(fold, rest);
-    return hermiteRatio(0.5 + 0.5 * h0 / (kSideWidth * fold.radius));
 }
 
 /// How far a vertex lies on the inner side of its bone, in radii.
@@ -192,45 +195,47 @@ double depthIn(const FoldShape& fold, const glm::dvec3& posed) {
     return length < 1e-6 ? 0.0 : glm::dot(across, posed) / (length * fold.radius);
 }
 
-/// Moves a vertex sideways, parallel to the joint's bend axis, by a share of its distance from the
-/// bone. The flanks and the inner side widen; the outer side keeps its shape.
-/// \param most the largest distance from the bone afterwards, over that at rest; a vertex that is
-///        farther away already stays
-glm::dvec3 widen(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed,
-                 double share, double most) {
-    const glm::dvec3 axis = glm::cross(fold.above, fold.bone);
-    const double sine = glm::length(axis);
-    if (sine < kMinFold) return posed;
-    const glm::dvec3 sideways = axis / sine;
-    const double at = glm::dot(sideways, posed);
-    const double z = std::max(glm::dot(boneOf(fold, posed), posed), 0.0);
-    const double across = glm::dot(posed, posed) - z * z - at * at; // squared
-    const double mostAcross = most * distanceAtRest(fold, rest);
-    const double room = std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
-    const double inside =
-        hermiteRatio((depthIn(fold, posed) - kWidenFrom) / (kWidenFull - kWidenFrom));
-    const double move = limitedTo(share * inside * std::abs(at), room);
-    return posed + std::copysign(move, at) * sideways;
-}
+/// Moves vertices sideways, parallel to the joint's bend axis, by a share of their distances from
+/// the bone. The flanks and the inner side widen; the outer side keeps its shape.
+class Widening {
+public:
+    /// \param points posed
+    Widening(const FoldShape& fold, const std::vector<RestPoint>& rest,
+             const std::vector<glm::dvec3>& points);
+
+    /// The widened points.
+    std::vector<glm::dvec3> by(const JointSections::Sides& shares) const;
+
+private:
+    struct Vertex {
+        double onParent, onChild; ///< distance from the joint along each bone, radii
+        double childShare;
+        double move; ///< by a share of 1, signed
+        double room; ///< for the move
+    };
+
+    const std::vector<glm::dvec3>& _points;
+    glm::dvec3 _sideways{0.0};
+    std::vector<Vertex> _vertices; ///< none if the limb is straight
+};
 
 /// Against self-intersection: keeps a vertex on its own side of the plane in which both sides meet,
 /// and presses the skin flat against it.
-glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::dvec3& posed) {
+glm::dvec3 pressFold(const FoldShape& fold, const RestPoint& rest, const glm::dvec3& posed) {
     const double onset = since(fold, kPressFrom, kPressFull);
     const glm::dvec3 sum = fold.above + fold.bone, inwards = fold.bone - fold.above;
     if (!(onset > 0.0) || glm::length(sum) < 1e-3 || glm::length(inwards) < 1e-3) return posed;
     const glm::dvec3& n = fold.normal;
     const double r = fold.radius;
-    const double h0 = heightAtRest(fold, rest);
     const double h = glm::dot(posed, n);
     const double limit = limitOf(fold, rest);
     const double childs = softMax(h, limit, kSoftness * r);
     const double parents = -softMax(-h, -limit, kSoftness * r);
-    const double side = childShare(fold, rest);
     // The crease lies between both sides, else it would cut into the one pressed upon it.
-    const double deep = since(fold, kCreaseFrom, kCreaseFull) *
-                        (1.0 - hermiteRatio((std::abs(h0) / r - kCreaseCore) / kCreaseEdge));
-    const double pressed = glm::mix(glm::mix(parents, childs, side), limit, deep);
+    const double deep =
+        since(fold, kCreaseFrom, kCreaseFull) *
+        (1.0 - hermiteRatio((std::abs(rest.height) / r - kCreaseCore) / kCreaseEdge));
+    const double pressed = glm::mix(glm::mix(parents, childs, rest.childShare), limit, deep);
     const double inside = hermiteRatio(0.2 + 2.0 * glm::dot(glm::normalize(inwards), posed) / r);
     return posed + onset * inside * (pressed - h) * n;
 }
@@ -239,8 +244,13 @@ glm::dvec3 pressFold(const FoldShape& fold, const glm::dvec3& rest, const glm::d
 /// centre, one for each of its vertices.
 class BentSkin {
 public:
+    /// \param rest restPointsOf() the joint
     /// \param childShare the share of the angle between both bones that the child's flesh fills
-    BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare = 0.5);
+    BentSkin(const ShapedJoint& joint, const std::vector<RestPoint>& rest, const BendTwist& bend,
+             double childShare = 0.5);
+
+    /// The rotation of each vertex.
+    const std::vector<glm::dquat>& turns() const { return _turns; }
 
     /// Six times the volume between the skin and the joint's centre.
     static double volumeOf(const ShapedJoint& joint, const std::vector<glm::dvec3>& points);
@@ -254,9 +264,7 @@ public:
 
 private:
     std::vector<glm::dvec3> limbTargets(const JointSections& sections) const;
-    std::vector<glm::dvec3> widened(const std::vector<glm::dvec3>& points,
-                                    const JointSections::Sides& shares) const;
-    JointSections::Sides sharesFor(const std::vector<glm::dvec3>& shaped,
+    JointSections::Sides sharesFor(const Widening& widening, const std::vector<glm::dvec3>& shaped,
                                    const JointSections& sections) const;
     std::vector<glm::dvec3> trunkTargets(double volumeAtRest) const;
 
@@ -265,8 +273,10 @@ private:
     std::vector<glm::dvec3> slid(std::vector<glm::dvec3> points) const;
 
     const ShapedJoint& _joint;
+    const std::vector<RestPoint>& _rest;
     BendTwist _bend;
     FoldShape _fold;
+    std::vector<glm::dquat> _turns;
     std::vector<glm::dvec3> _posed;
 };
 
@@ -374,11 +384,49 @@ private:
     double _last = 0.0;
 };
 
-BentSkin::BentSkin(const ShapedJoint& joint, const BendTwist& bend, double childShare)
-    : _joint(joint), _bend(bend),
-      _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)) {
-    for (const ShapedJoint::Vertex& vertex : joint.vertices)
-        _posed.push_back(joint.turnOf(vertex, bend) * vertex.from);
+Widening::Widening(const FoldShape& fold, const std::vector<RestPoint>& rest, const Points& points)
+    : _points(points) {
+    const glm::dvec3 axis = glm::cross(fold.above, fold.bone);
+    const double sine = glm::length(axis);
+    if (sine < kMinFold) return;
+    _sideways = axis / sine;
+    const double most = maxOutAt(fold.angle);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3& x = points[i];
+        const double at = glm::dot(_sideways, x);
+        const double z = std::max(glm::dot(boneOf(fold, x), x), 0.0);
+        const double across = glm::dot(x, x) - z * z - at * at; // squared
+        const double mostAcross = most * rest[i].distance;
+        const double room =
+            std::sqrt(std::max(mostAcross * mostAcross - across, 0.0)) - std::abs(at);
+        const double inside =
+            hermiteRatio((depthIn(fold, x) - kWidenFrom) / (kWidenFull - kWidenFrom));
+        _vertices.push_back({-glm::dot(fold.above, x) / fold.radius,
+                             glm::dot(fold.bone, x) / fold.radius, rest[i].childShare, inside * at,
+                             room});
+    }
+}
+
+Points Widening::by(const JointSections::Sides& shares) const {
+    Points result = _points;
+    for (std::size_t i = 0; i < _vertices.size(); ++i) {
+        const Vertex& vertex = _vertices[i];
+        if (!(vertex.room > 0.0) || vertex.move == 0.0) continue;
+        const double share = glm::mix(widthAt(shares.parent, vertex.onParent),
+                                      widthAt(shares.child, vertex.onChild), vertex.childShare);
+        const double move = limitedTo(share * std::abs(vertex.move), vertex.room);
+        result[i] += std::copysign(move, vertex.move) * _sideways;
+    }
+    return result;
+}
+
+BentSkin::BentSkin(const ShapedJoint& joint, const std::vector<RestPoint>& rest,
+                   const BendTwist& bend, double childShare)
+    : _joint(joint), _rest(rest), _bend(bend),
+      _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)),
+      _turns(joint.turnsOf(bend)) {
+    for (std::size_t i = 0; i < _turns.size(); ++i)
+        _posed.push_back(_turns[i] * joint.vertices[i].from);
 }
 
 double BentSkin::volumeOf(const ShapedJoint& joint, const Points& points) {
@@ -393,21 +441,8 @@ Points BentSkin::targets(double volumeAtRest, const JointSections* sections) con
     return sections ? limbTargets(*sections) : trunkTargets(volumeAtRest);
 }
 
-Points BentSkin::widened(const Points& points, const JointSections::Sides& shares) const {
-    Points result;
-    const double r = _joint.radius, most = maxOutAt(_fold.angle);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::dvec3 &x = points[i], &rest = _joint.vertices[i].from;
-        const double parents = widthAt(shares.parent, -glm::dot(_fold.above, x) / r);
-        const double childs = widthAt(shares.child, glm::dot(_fold.bone, x) / r);
-        const double side = childShare(_fold, rest);
-        result.push_back(widen(_fold, rest, x, glm::mix(parents, childs, side), most));
-    }
-    return result;
-}
-
 /// Shares by which sections are widened to keep their areas.
-JointSections::Sides BentSkin::sharesFor(const Points& shaped,
+JointSections::Sides BentSkin::sharesFor(const Widening& widening, const Points& shaped,
                                          const JointSections& sections) const {
     const JointSections::Sides areas = sections.areasOf(_fold.above, _fold.bone, shaped);
     WidthSearch parent(sections.atRest().parent, areas.parent),
@@ -417,7 +452,7 @@ JointSections::Sides BentSkin::sharesFor(const Points& shaped,
         all.parent.fill(width);
         all.child.fill(width);
         const JointSections::Sides wide =
-            sections.areasOf(_fold.above, _fold.bone, widened(shaped, all));
+            sections.areasOf(_fold.above, _fold.bone, widening.by(all));
         parent.add(width, wide.parent);
         child.add(width, wide.child);
     }
@@ -425,16 +460,18 @@ JointSections::Sides BentSkin::sharesFor(const Points& shaped,
 }
 
 Points BentSkin::limbTargets(const JointSections& sections) const {
+    const bool twists = std::abs(_bend.twistAngle) > 1e-9;
+    glm::dquat turn = partialRotation(_bend, _joint.twistAxis, 1.0, 1.0);
     Points shaped;
     for (std::size_t i = 0; i < _posed.size(); ++i) {
-        const ShapedJoint::Vertex& vertex = _joint.vertices[i];
-        const glm::dquat turn = partialRotation(_bend, _joint.twistAxis, 1.0, vertex.twist);
-        const glm::dvec3 clamped = clampBulge(_fold, vertex.from, _posed[i]);
+        if (twists) turn = partialRotation(_bend, _joint.twistAxis, 1.0, _joint.vertices[i].twist);
+        const glm::dvec3 clamped = clampBulge(_fold, _rest[i].at, _posed[i]);
         shaped.push_back(
-            pressFold(_fold, vertex.from, restoreSection(_fold, vertex.from, clamped, turn)));
+            pressFold(_fold, _rest[i], restoreSection(_fold, _rest[i], clamped, turn)));
     }
     // The fold takes area from the sections beside it, so flesh moves to their flanks.
-    Points targets = widened(shaped, sharesFor(shaped, sections));
+    const Widening widening(_fold, _rest, shaped);
+    Points targets = widening.by(sharesFor(widening, shaped, sections));
     for (std::size_t i = 0; i < _posed.size(); ++i) {
         const ShapedJoint::Vertex& vertex = _joint.vertices[i];
         targets[i] = _posed[i] + vertex.limb * vertex.fade * (targets[i] - _posed[i]);
@@ -522,20 +559,19 @@ JointShapes shapesOf(const ShapedJoint& joint) {
     std::optional<JointSections> sections;
     if (!joint.isAtTrunk()) sections.emplace(joint);
     const SkinRelaxation relaxation(joint);
+    const std::vector<RestPoint> rest = restPointsOf(joint);
     for (const BendTwist& bend : bendsOf(joint)) {
         shapes.samples.push_back(
             joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
-        const BentSkin skin(joint, bend, sections ? sections->childDepth() : 0.5);
+        const BentSkin skin(joint, rest, bend, sections ? sections->childDepth() : 0.5);
         // A hinge's splines can meet all of its shapes.
         if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge && !joint.isSoft)
             shapes.weights.push_back(skin.weights());
-        const Points targets =
-            relaxation.relaxed(skin.targets(volumeAtRest, sections ? &*sections : nullptr), bend);
-        std::vector<glm::dvec3>& offsets = shapes.offsets.emplace_back();
-        for (std::size_t i = 0; i < targets.size(); ++i) {
-            const ShapedJoint::Vertex& vertex = joint.vertices[i];
-            offsets.push_back(glm::conjugate(joint.turnOf(vertex, bend)) * targets[i] -
-                              vertex.from);
+        shapes.offsets.push_back(relaxation.relaxed(
+            skin.targets(volumeAtRest, sections ? &*sections : nullptr), skin.turns()));
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            glm::dvec3& offset = shapes.offsets.back()[i];
+            offset = glm::conjugate(skin.turns()[i]) * offset - rest[i].at;
         }
     }
     return shapes;

@@ -83,8 +83,8 @@ class CorrectedSkin {
 public:
     CorrectedSkin(const WeldedMesh& mesh, const Binding& binding, std::uint32_t corrective)
         : _mesh(mesh), _binding(binding), _functions(binding.correctives.joints[corrective]),
-          _turns(_functions.basis != CorrectiveJoint::Basis::Input),
-          _joint(binding.joints[_turns ? _functions.joint : 0]), _ratios(mesh, binding),
+          _isJoint(_functions.basis != CorrectiveJoint::Basis::Input),
+          _joint(binding.joints[_isJoint ? _functions.joint : 0]), _ratios(mesh, binding),
           _posed(mesh.vertexCount()), _areas(mesh.vertexCount()) {
         std::vector<bool> touched(mesh.vertexCount(), false);
         for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) {
@@ -104,6 +104,7 @@ public:
                 corner[v] = true;
             }
         }
+        _turns.resize(_vertices.size());
         _rest = normals(mesh.positions);
     }
 
@@ -122,7 +123,7 @@ public:
         const std::vector<glm::dvec3> wanted = normals(_posed);
         std::vector<glm::dvec3> result;
         for (std::size_t v = 0; v < _vertices.size(); ++v)
-            result.push_back(tilt(_vertices[v], bend, _rest[v], wanted[v]));
+            result.push_back(tilt(v, bend, wanted[v]));
         return result;
     }
 
@@ -133,7 +134,7 @@ public:
             const BendTwist bend = pose(xy, true);
             for (std::size_t v = 0; v < _vertices.size(); ++v)
                 least[v] = std::min(least[v], 1.0 + glm::dot(glm::dvec3(_vertices[v].gradient.bend),
-                                                             slideOf(_vertices[v], bend)));
+                                                             slideOf(v, bend)));
         }
         for (std::size_t v = 0; v < _vertices.size(); ++v)
             if (least[v] < kMinArea)
@@ -142,10 +143,10 @@ public:
     }
 
 private:
-    /// Bends the joint and sets `_posed`.
+    /// Bends the joint and sets `_posed` and `_turns`.
     BendTwist pose(const glm::dvec2& xy, bool corrected) {
         BendTwist bend;
-        if (const double sine = glm::length(xy); _turns) {
+        if (const double sine = glm::length(xy); _isJoint) {
             const glm::dvec3 other = glm::cross(_joint.twistAxis, _functions.axis);
             bend.bendAxis = (xy.x * _functions.axis + xy.y * other) / sine;
             bend.bendAngle = 2.0 * std::asin(std::min(sine, 1.0));
@@ -153,25 +154,27 @@ private:
         double beta[CorrectiveJoint::kMaxModes] = {};
         if (corrected) _functions.weights(xy, beta);
         for (const std::uint32_t v : _others)
-            _posed[v] = turnOf(_ratios.of(v, _turns ? _functions.joint : 0), bend) *
+            _posed[v] = turnOf(_ratios.of(v, _isJoint ? _functions.joint : 0), bend) *
                         (_mesh.positions[v] - _joint.centre);
-        for (const Vertex& vertex : _vertices)
+        for (std::size_t v = 0; v < _vertices.size(); ++v) {
+            const Vertex& vertex = _vertices[v];
+            _turns[v] = turnOf(vertex.ratios, bend);
             _posed[vertex.welded] =
-                turnOf(vertex.ratios, bend) *
-                (_mesh.positions[vertex.welded] + offset(vertex, beta) - _joint.centre);
+                _turns[v] * (_mesh.positions[vertex.welded] + offset(vertex, beta) - _joint.centre);
+        }
         return bend;
     }
 
     /// The derivative of a vertex's position by its bend ratio, in the vertex's unrotated frame.
-    glm::dvec3 slideOf(const Vertex& vertex, const BendTwist& bend) const {
-        return glm::conjugate(turnOf(vertex.ratios, bend)) *
-               (bend.bendAngle * glm::cross(bend.bendAxis, _posed[vertex.welded]));
+    glm::dvec3 slideOf(std::size_t v, const BendTwist& bend) const {
+        return glm::conjugate(_turns[v]) *
+               (bend.bendAngle * glm::cross(bend.bendAxis, _posed[_vertices[v].welded]));
     }
 
     void addVertex(std::uint32_t v, std::size_t firstShare) {
         Vertex vertex{_mesh.weldedOf[v], firstShare, {_functions.joint, 0.0f, 0.0f}, {}};
         for (std::uint32_t i = _binding.firstInfluence[v]; i < _binding.firstInfluence[v + 1]; ++i)
-            if (_turns && _binding.influences[i].joint == _functions.joint) {
+            if (_isJoint && _binding.influences[i].joint == _functions.joint) {
                 vertex.ratios = _binding.influences[i];
                 vertex.gradient = _binding.gradients[i];
             }
@@ -209,18 +212,16 @@ private:
 
     /// A tilt d turns the directions u and v along the skin into u - (d . u) n and v - (d . v) n.
     /// Together with the terms of the gradients, these must be perpendicular to the target normal.
-    glm::dvec3 tilt(const Vertex& vertex, const BendTwist& bend, const glm::dvec3& n,
-                    const glm::dvec3& wanted) const {
+    glm::dvec3 tilt(std::size_t index, const BendTwist& bend, const glm::dvec3& wanted) const {
+        const glm::dvec3& n = _rest[index];
         if (n == glm::dvec3(0.0) || wanted == glm::dvec3(0.0)) return glm::dvec3(0.0);
-        const glm::dvec3 slide = slideOf(vertex, bend);
-        const glm::dvec3 target = glm::conjugate(turnOf(vertex.ratios, bend)) * wanted;
+        const glm::dvec3 gradient(_vertices[index].gradient.bend);
+        const glm::dvec3 slide = slideOf(index, bend);
+        const glm::dvec3 target = glm::conjugate(_turns[index]) * wanted;
         const double cosine = std::max(glm::dot(n, target), kMinCosine);
         const glm::dvec3 u = anyPerpendicular(n), v = glm::cross(n, u);
         const auto along = [&](const glm::dvec3& direction) {
-            return glm::dot(direction +
-                                glm::dot(glm::dvec3(vertex.gradient.bend), direction) * slide,
-                            target) /
-                   cosine;
+            return glm::dot(direction + glm::dot(gradient, direction) * slide, target) / cosine;
         };
         return along(u) * u + along(v) * v;
     }
@@ -228,42 +229,50 @@ private:
     const WeldedMesh& _mesh;
     const Binding& _binding;
     const CorrectiveJoint& _functions;
-    bool _turns;              ///< true for a joint's correctives, false for an input's
+    bool _isJoint;            ///< true for a joint's correctives, false for an input's
     const BoundJoint& _joint; ///< the root for an input
     JointRatios _ratios;
     std::vector<Vertex> _vertices;                        ///< the corrected ones
     std::vector<std::array<std::uint32_t, 3>> _triangles; ///< those with a corrected corner
     std::vector<std::uint32_t> _others;                   ///< their other corners
     std::vector<glm::dvec3> _rest;                        ///< normals of `_vertices`
+    std::vector<glm::dquat> _turns;                       ///< of `_vertices`
     std::vector<glm::dvec3> _posed;                       ///< relative to the joint's centre
     std::vector<glm::dvec3> _areas;                       ///< of all vertices, see normals()
 };
 
-/// modes x coordinates of all vertices: the least-squares solution X of weights X = tilts.
-Eigen::MatrixXd fit(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
-    const Eigen::VectorXd length = weights.colwise().norm().cwiseMax(1e-12);
-    const Eigen::MatrixXd unit = weights * length.cwiseInverse().asDiagonal();
-    Eigen::MatrixXd normal = unit.transpose() * unit;
-    normal.diagonal().array() += kNormalRidge;
-    return length.cwiseInverse().asDiagonal() * normal.ldlt().solve(unit.transpose() * tilts);
-}
+/// Normal equations of weights X = tilts: modes x coordinates of all vertices.
+struct NormalFit {
+    Eigen::MatrixXd products; ///< of the modes' weights
+    Eigen::MatrixXd sums;     ///< of the tilts, by the weights
 
-/// The same with as few of the first modes for each vertex as kMaxNormalError allows; 0 for the
-/// others.
-Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& tilts) {
-    if (tilts.cols() == 0) return {weights.cols(), 0};
-    Eigen::MatrixXd modes = fit(weights, tilts);
-    const Eigen::MatrixXd all = weights * modes;
-    std::vector<bool> open(std::size_t(tilts.cols() / 3), true);
+    /// X by the first `count` modes.
+    Eigen::MatrixXd by(Eigen::Index count) const {
+        const Eigen::VectorXd scale =
+            products.diagonal().head(count).cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
+        Eigen::MatrixXd unit =
+            scale.asDiagonal() * products.topLeftCorner(count, count) * scale.asDiagonal();
+        unit.diagonal().array() += kNormalRidge;
+        return scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * sums.topRows(count));
+    }
+};
+
+/// X with as few of the first modes for each vertex as kMaxNormalError allows; 0 for the others.
+/// \param weights samples x modes
+Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const NormalFit& fit) {
+    if (fit.sums.cols() == 0) return fit.sums;
+    const Eigen::MatrixXd all = fit.by(weights.cols());
+    Eigen::MatrixXd modes = all;
+    std::vector<bool> open(std::size_t(all.cols() / 3), true);
     for (Eigen::Index count = weights.cols(); count-- > 0;) {
-        Eigen::MatrixXd fewer = Eigen::MatrixXd::Zero(modes.rows(), modes.cols());
-        if (count > 0) fewer.topRows(count) = fit(weights.leftCols(count), tilts);
-        const Eigen::MatrixXd off = weights * fewer - all;
+        Eigen::MatrixXd fewer = Eigen::MatrixXd::Zero(all.rows(), all.cols());
+        if (count > 0) fewer.topRows(count) = fit.by(count);
         for (std::size_t v = 0; v < open.size(); ++v) {
-            const auto column = Eigen::Index(3 * v);
-            open[v] =
-                open[v] && off.middleCols<3>(column).rowwise().norm().maxCoeff() <= kMaxNormalError;
-            if (open[v]) modes.middleCols<3>(column) = fewer.middleCols<3>(column);
+            if (!open[v]) continue;
+            const auto own = fewer.middleCols<3>(Eigen::Index(3 * v));
+            const Eigen::MatrixX3d off = weights * (own - all.middleCols<3>(Eigen::Index(3 * v)));
+            open[v] = off.rowwise().squaredNorm().maxCoeff() <= kMaxNormalError * kMaxNormalError;
+            if (open[v]) modes.middleCols<3>(Eigen::Index(3 * v)) = own;
         }
     }
     return modes;
@@ -289,13 +298,14 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
         // Splines follow a bend closely enough to make up for shorter gradients.
         if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
             skin.limitGradients(samples);
-        const auto rows = Eigen::Index(samples.size());
-        Eigen::MatrixXd weights(rows, Eigen::Index(joint.modes));
-        Eigen::MatrixXd tilts(rows, Eigen::Index(3 * skin.vertices().size()));
+        const auto rows = Eigen::Index(samples.size()), count = Eigen::Index(joint.modes);
+        Eigen::MatrixXd weights(rows, count);
+        Eigen::MatrixXd sums =
+            Eigen::MatrixXd::Zero(count, Eigen::Index(3 * skin.vertices().size()));
         for (Eigen::Index s = 0; s < rows; ++s) {
-            double beta[CorrectiveJoint::kMaxModes];
-            joint.weights(samples[std::size_t(s)], beta);
-            for (std::size_t k = 0; k < joint.modes; ++k) weights(s, Eigen::Index(k)) = beta[k];
+            Eigen::VectorXd beta(Eigen::Index(CorrectiveJoint::kMaxModes));
+            joint.weights(samples[std::size_t(s)], beta.data());
+            weights.row(s) = beta.head(count);
             std::vector<glm::dvec3> wanted = skin.tilts(samples[std::size_t(s)]);
             if (again) {
                 const std::vector<glm::dvec3> without = skin.tilts(samples[std::size_t(s)], false);
@@ -303,9 +313,10 @@ void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
             }
             for (std::size_t v = 0; v < wanted.size(); ++v)
                 for (int axis = 0; axis < 3; ++axis)
-                    tilts(s, Eigen::Index(3 * v) + axis) = wanted[v][axis];
+                    sums.col(Eigen::Index(3 * v) + axis) += wanted[v][axis] * beta.head(count);
         }
-        const Eigen::MatrixXd modes = fitWithFewest(weights, tilts);
+        const Eigen::MatrixXd modes =
+            fitWithFewest(weights, {weights.transpose() * weights, std::move(sums)});
         std::vector<double>& scale = scales.emplace_back();
         for (std::size_t k = 0; k < joint.modes; ++k) {
             const double most =

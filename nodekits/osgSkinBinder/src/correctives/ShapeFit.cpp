@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kFitRidge = 1e-3;
 
+/// Squares of singular values below this share of the largest are rounding errors.
+constexpr double kRounding = 1e-13;
+
 /// Shapes smaller than this share of the mean shape's size get no more weight.
 constexpr double kFloor = 0.05;
 
@@ -40,32 +43,41 @@ Eigen::MatrixXd offsetsOf(const JointShapes& shapes) {
     return offsets;
 }
 
+Eigen::MatrixXd damped(Eigen::MatrixXd normal) {
+    normal.diagonal().array() += kFitRidge;
+    return normal;
+}
+
 /// The functions' coefficients by damped least squares, a column for each vertex and axis.
 Eigen::MatrixXd solve(const JointShapes& shapes, const Eigen::MatrixXd& phi,
                       const Eigen::MatrixXd& offsets) {
-    const auto damped = [](Eigen::MatrixXd normal) {
-        normal.diagonal().array() += kFitRidge;
-        return normal.ldlt();
-    };
     if (shapes.weights.empty())
-        return damped(phi.transpose() * phi).solve(phi.transpose() * offsets);
-    Eigen::MatrixXd fit(phi.cols(), offsets.cols());
-    Eigen::VectorXd weights(phi.rows());
-    for (std::size_t v = 0; v < shapes.vertices.size(); ++v) {
-        for (std::size_t s = 0; s < shapes.samples.size(); ++s)
-            weights[Eigen::Index(s)] = shapes.weights[s][v];
-        const Eigen::MatrixXd weighted = weights.asDiagonal() * phi;
-        const auto column = Eigen::Index(3 * v);
-        fit.middleCols<3>(column) =
-            damped(phi.transpose() * weighted)
-                .solve(weighted.transpose() * offsets.middleCols<3>(column));
+        return damped(phi.transpose() * phi).ldlt().solve(phi.transpose() * offsets);
+    const Eigen::Index count = phi.cols();
+    Eigen::MatrixXd products(phi.rows(), count * count);
+    for (Eigen::Index i = 0; i < count; ++i)
+        products.middleCols(i * count, count) = phi.col(i).asDiagonal() * phi;
+    Eigen::MatrixXd weights(phi.rows(), offsets.cols() / 3), weighted = offsets;
+    for (Eigen::Index s = 0; s < phi.rows(); ++s)
+        weights.row(s) = Eigen::Map<const Eigen::RowVectorXd>(shapes.weights[std::size_t(s)].data(),
+                                                              weights.cols());
+    for (Eigen::Index column = 0; column < offsets.cols(); ++column)
+        weighted.col(column).array() *= weights.col(column / 3).array();
+    const Eigen::MatrixXd normals = products.transpose() * weights;
+    Eigen::MatrixXd fit = phi.transpose() * weighted;
+    Eigen::LLT<Eigen::MatrixXd> solver(count);
+    for (Eigen::Index v = 0; v < weights.cols(); ++v) {
+        solver.compute(damped(normals.col(v).reshaped(count, count)));
+        solver.solveInPlace(fit.middleCols<3>(3 * v));
     }
     return fit;
 }
 
 /// Over samples and vertices.
-double rootMeanSquare(const Eigen::MatrixXd& offsets) {
-    return offsets.size() > 0 ? offsets.norm() / std::sqrt(double(offsets.size()) / 3.0) : 0.0;
+/// \param squares sum of the coordinates' squares
+/// \param count of coordinates
+double rootMeanSquare(double squares, Eigen::Index count) {
+    return count > 0 ? std::sqrt(std::max(0.0, squares) / (double(count) / 3.0)) : 0.0;
 }
 
 double longestIn(const Eigen::VectorXd& mode) {
@@ -135,33 +147,50 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
     const Eigen::MatrixXd offsets = offsetsOf(shapes);
     const Eigen::MatrixXd fit = solve(shapes, phi, offsets);
 
-    // The fitted shapes are a matrix of low rank; its right singular vectors are the modes.
-    const Eigen::MatrixXd fitted = phi * fit;
+    // The fitted shapes phi fit are a matrix of low rank; its right singular vectors are the modes.
+    // They are combinations of the rows of `fit`, which are few: with gram = root root', root'
+    // phi' phi root has the same singular values.
+    const Eigen::MatrixXd gram = fit * fit.transpose();
+    const Eigen::VectorXd squares = // of each sample's shape
+        (phi * gram).cwiseProduct(phi).rowwise().sum().cwiseMax(0.0);
     // Slight bends have small shapes but are seen most often, so they get more weight.
-    Eigen::MatrixXd scaled = fitted;
     const double floor =
-        kFloor * fitted.norm() / std::sqrt(double(std::max<Eigen::Index>(1, fitted.rows())));
-    if (floor > 0.0)
-        for (Eigen::Index s = 0; s < scaled.rows(); ++s)
-            scaled.row(s) /= std::sqrt(fitted.row(s).norm() + floor);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(scaled * scaled.transpose());
-    Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(fitted.rows(), fitted.cols());
-    std::vector<Eigen::VectorXd> vectors;
-    const std::size_t modes = std::min(
-        {limits.most, CorrectiveJoint::kMaxModes, static_cast<std::size_t>(fitted.rows())});
+        kFloor * std::sqrt(squares.sum() / double(std::max<Eigen::Index>(1, phi.rows())));
+    const Eigen::MatrixXd scaled =
+        floor > 0.0 ? Eigen::MatrixXd(
+                          (squares.cwiseSqrt().array() + floor).rsqrt().matrix().asDiagonal() * phi)
+                    : phi;
+    const Eigen::MatrixXd overSamples = scaled.transpose() * scaled;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> rows(gram);
+    const Eigen::MatrixXd root =
+        rows.eigenvectors() * rows.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> right(root.transpose() * overSamples *
+                                                               root);
+    const double all = offsets.squaredNorm();
+    const double missed =
+        all - 2.0 * (phi.transpose() * offsets).cwiseProduct(fit).sum() + squares.sum();
     const double enough =
-        std::max(limits.enough, limits.enoughOfResidual * rootMeanSquare(offsets - fitted));
+        std::max(limits.enough, limits.enoughOfResidual * rootMeanSquare(missed, offsets.size()));
+    double left = squares.sum(), residual = all;
+    std::vector<Eigen::VectorXd> vectors;
+    const std::size_t modes =
+        std::min({limits.most, CorrectiveJoint::kMaxModes, static_cast<std::size_t>(phi.rows()),
+                  static_cast<std::size_t>(phi.cols())});
     for (std::size_t k = 0; k < modes; ++k) {
-        const Eigen::Index column = fitted.rows() - 1 - Eigen::Index(k); // largest last
-        const double singular = std::sqrt(std::max(0.0, left.eigenvalues()[column]));
-        if (!(singular > 0.0) || rootMeanSquare(fitted - kept) < enough) break;
+        const Eigen::Index column = phi.cols() - 1 - Eigen::Index(k); // largest last
+        const double square = right.eigenvalues()[column];
+        if (!(square > kRounding * right.eigenvalues().maxCoeff()) ||
+            rootMeanSquare(left, offsets.size()) < enough)
+            break;
         const Eigen::VectorXd mode =
-            scaled.transpose() * left.eigenvectors().col(column) / singular;
-        const Eigen::VectorXd share = fitted * mode; // of each sample
+            fit.transpose() * (overSamples * root * right.eigenvectors().col(column) / square);
+        const Eigen::VectorXd functions = fit * mode;
+        const Eigen::VectorXd share = phi * functions; // of each sample
         const double longest = longestIn(mode);
         if (share.cwiseAbs().maxCoeff() * longest <= limits.tolerance) break;
-        kept += share * mode.transpose();
-        const Eigen::VectorXd coefficients = fit * mode * longest;
+        left -= share.squaredNorm();
+        residual += share.squaredNorm() - 2.0 * share.dot(offsets * mode);
+        const Eigen::VectorXd coefficients = functions * longest;
         result.functions.coefficients.insert(result.functions.coefficients.end(),
                                              coefficients.data(),
                                              coefficients.data() + coefficients.size());
@@ -174,7 +203,7 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
             for (int axis = 0; axis < 3; ++axis)
                 result.vectors[v * vectors.size() + k][axis] =
                     vectors[k][Eigen::Index(3 * v) + axis];
-    result.residual = rootMeanSquare(offsets - kept);
+    result.residual = rootMeanSquare(residual, offsets.size());
     return result;
 }
 

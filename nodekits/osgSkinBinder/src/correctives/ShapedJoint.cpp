@@ -323,6 +323,21 @@ double ShapedJoint::armpitClosure(const BendTwist& bend) const {
     return hermiteRatio((kOpen - raised) / (kOpen - kClosed));
 }
 
+std::vector<glm::dquat> ShapedJoint::turnsOf(const BendTwist& bend) const {
+    const glm::dquat none(1.0, 0.0, 0.0, 0.0);
+    const glm::dquat whole = partialRotation(bend, twistAxis, 1.0, 1.0);
+    const bool twists = std::abs(bend.twistAngle) > 1e-9;
+    std::vector<glm::dquat> turns;
+    turns.reserve(vertices.size());
+    for (const Vertex& vertex : vertices) {
+        const auto takes = [&](double share) { // most vertices take all of it or nothing
+            return vertex.bend == share && (!twists || vertex.twist == share);
+        };
+        turns.push_back(takes(0.0) ? none : takes(1.0) ? whole : turnOf(vertex, bend));
+    }
+    return turns;
+}
+
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
                                           const WeldedMesh& mesh, const Binding& binding,

@@ -96,6 +96,9 @@ struct ShapedJoint {
     /// front of the chest, not at all if it is raised.
     double armpitClosure(const BendTwist& bend) const;
 
+    /// turnOf() each vertex.
+    std::vector<glm::dquat> turnsOf(const BendTwist& bend) const;
+
     /// The rotation of a vertex about the joint's centre, by its own ratios of a bend.
     glm::dquat turnOf(const Vertex& vertex, const BendTwist& bend) const {
         return partialRotation(bend, twistAxis, vertex.bend, vertex.twist);

@@ -3,6 +3,7 @@
 
 #include "regions/HermiteRatio.h"
 
+#include <Eigen/SparseCholesky>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -29,18 +30,12 @@ constexpr double kMinCotangent = 0.05, kMaxCotangent = 5.0;
 /// Of the squared width: areas below it count as this much.
 constexpr double kSmallArea = 1e-9;
 
-Eigen::MatrixXd columnsOf(const Points& points, Eigen::Index count) {
-    Eigen::MatrixXd columns =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), count);
-    for (Eigen::Index i = 0; i < columns.rows(); ++i)
-        for (Eigen::Index axis = 0; axis < 3; ++axis)
-            columns(i, axis) = points[static_cast<std::size_t>(i)][static_cast<int>(axis)];
-    return columns;
+Eigen::Array4f fourOf(const glm::dvec3& point, double fourth) {
+    return Eigen::Array4d(point.x, point.y, point.z, fourth).cast<float>();
 }
 
-glm::dvec3 pointAt(const Eigen::MatrixXd& columns, std::size_t i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    return {columns(row, 0), columns(row, 1), columns(row, 2)};
+glm::dvec3 pointOf(const Eigen::Array4f& four) {
+    return {four[0], four[1], four[2]};
 }
 
 } // namespace
@@ -50,7 +45,7 @@ SkinRelaxation::SkinRelaxation(const ShapedJoint& joint) : _joint(joint) {
     const auto count = static_cast<Eigen::Index>(joint.vertices.size());
     const double width = joint.relaxation * joint.radius;
     const double time = 0.5 * width * width / kSteps;
-    _mass = Eigen::VectorXd::Constant(count, kSmallArea * width * width);
+    Eigen::VectorXd mass = Eigen::VectorXd::Constant(count, kSmallArea * width * width);
     std::vector<Eigen::Triplet<double>> entries; // of M + time L
     for (const std::array<std::uint32_t, 3>& t : joint.triangles)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -62,50 +57,73 @@ SkinRelaxation::SkinRelaxation(const ShapedJoint& joint) : _joint(joint) {
             const double cotangent =
                 std::clamp(glm::dot(toA, toB) / area, kMinCotangent, kMaxCotangent);
             const double weight = 0.5 * time * cotangent;
-            _mass[c] += area / 6.0;
+            mass[c] += area / 6.0;
             const int row = static_cast<int>(a), column = static_cast<int>(b);
             entries.emplace_back(row, column, -weight);
             entries.emplace_back(column, row, -weight);
             entries.emplace_back(row, row, weight);
             entries.emplace_back(column, column, weight);
         }
-    for (int i = 0; i < count; ++i) entries.emplace_back(i, i, _mass[i]);
+    for (int i = 0; i < count; ++i) entries.emplace_back(i, i, mass[i]);
     Eigen::SparseMatrix<double> matrix(count, count);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    _solver.compute(matrix);
-    if (_solver.info() != Eigen::Success) return;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+    if (solver.info() != Eigen::Success) return;
     _isOn = true;
+    _lower = Eigen::SparseMatrix<double>(solver.matrixL().nestedExpression()).cast<float>();
+    _row = solver.permutationP().indices();
+    _mass = (solver.permutationP() * mass).cast<float>();
+    _inverse = solver.vectorD().cwiseInverse().cast<float>();
     Points rest;
     for (const ShapedJoint::Vertex& vertex : joint.vertices) rest.push_back(vertex.from);
-    const Columns smoothed = smooth(columnsOf(rest, 3));
-    for (std::size_t i = 0; i < rest.size(); ++i) _smoothedAtRest.push_back(pointAt(smoothed, i));
     _areasAtRest = areasOf(rest).cwiseMax(kSmallArea * width * width);
+    for (const Eigen::Array4f& each : smooth(rest, Eigen::VectorXd::Zero(count)))
+        _smoothedAtRest.push_back(pointOf(each));
 }
 
-std::vector<glm::dvec3> SkinRelaxation::relaxed(Points points, const BendTwist& bend) const {
+Points SkinRelaxation::relaxed(Points points, const std::vector<glm::dquat>& turns) const {
     if (!_isOn) return points;
-    Columns columns = columnsOf(points, 4);
-    if (!_joint.isSoft) columns.col(3) = areasOf(points).cwiseQuotient(_areasAtRest);
-    columns = smooth(std::move(columns));
+    Eigen::VectorXd areas = Eigen::VectorXd::Zero(_areasAtRest.size());
+    if (!_joint.isSoft) areas = areasOf(points).cwiseQuotient(_areasAtRest);
+    const Fours smoothed = smooth(points, areas);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ShapedJoint::Vertex& vertex = _joint.vertices[i];
-        glm::dvec3 target = pointAt(columns, i);
+        glm::dvec3 target = pointOf(smoothed[i]);
         double share = vertex.fade;
-        if (_joint.isSoft) {
-            target += _joint.turnOf(vertex, bend) * (vertex.from - _smoothedAtRest[i]);
-        } else {
-            const double area = columns(static_cast<Eigen::Index>(i), 3);
-            share *= 1.0 - hermiteRatio((area - kCompressed) / (kLoose - kCompressed));
-        }
+        if (_joint.isSoft)
+            target += turns[i] * (vertex.from - _smoothedAtRest[i]);
+        else
+            share *= 1.0 - hermiteRatio((smoothed[i][3] - kCompressed) / (kLoose - kCompressed));
         points[i] = glm::mix(points[i], target, share);
     }
     return points;
 }
 
-SkinRelaxation::Columns SkinRelaxation::smooth(Columns columns) const {
-    for (int i = 0; i < kSteps; ++i)
-        columns = _solver.solve((_mass.asDiagonal() * columns).eval()).eval();
-    return columns;
+SkinRelaxation::Fours SkinRelaxation::smooth(const Points& points,
+                                             const Eigen::VectorXd& values) const {
+    Fours x(points.size());
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        x[std::size_t(_row[i])] = fourOf(points[std::size_t(i)], values[i]);
+    const int count = static_cast<int>(x.size());
+    const int* first = _lower.outerIndexPtr();
+    const int* rows = _lower.innerIndexPtr();
+    const float* factors = _lower.valuePtr();
+    for (int step = 0; step < kSteps; ++step) {
+        for (int i = 0; i < count; ++i) x[std::size_t(i)] *= _mass[i];
+        for (int i = 0; i < count; ++i)
+            for (int k = first[i]; k < first[i + 1]; ++k)
+                x[std::size_t(rows[k])] -= factors[k] * x[std::size_t(i)];
+        for (int i = count; i-- > 0;) {
+            Eigen::Array4f sum = _inverse[i] * x[std::size_t(i)];
+            for (int k = first[i]; k < first[i + 1]; ++k)
+                sum -= factors[k] * x[std::size_t(rows[k])];
+            x[std::size_t(i)] = sum;
+        }
+    }
+    Fours result(x.size());
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        result[std::size_t(i)] = x[std::size_t(_row[i])];
+    return result;
 }
 
 Eigen::VectorXd SkinRelaxation::areasOf(const Points& points) const {
