@@ -4,6 +4,7 @@
 #include "BenchBody.h"
 #include "CharacterBench.h"
 #include "LoadBench.h"
+#include "SomeMorphs.h"
 
 #include <osgSkin/DeformPool>
 #include <osgSkin/MorphedRest>
@@ -196,29 +197,11 @@ void shapes(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool
     count(state, positions.size());
 }
 
-/// A face of a twelfth of the vertices, as on characters, in front of all others: `targets` shapes,
-/// each of a third of it.
-osg::ref_ptr<const osgSkin::MorphTargets> faceTargets(const osgSkin::SkinModel& model,
-                                                      std::size_t targets) {
-    const std::size_t face = model.vertexCount() / 12;
-    std::vector<osgSkin::MorphTarget> result(targets);
-    for (std::size_t i = 0; i < targets; ++i) {
-        result[i].name = std::to_string(i);
-        for (std::size_t k = 0; k < face / 3; ++k) {
-            result[i].vertices.push_back(
-                static_cast<std::uint32_t>(i * (face - face / 3) / targets + k));
-            result[i].positions.emplace_back(0.01f, 0.02f, -0.01f);
-            result[i].normals.emplace_back(0.1f, -0.1f, 0.2f);
-        }
-    }
-    return osgSkin::MorphTargets::create(std::move(result), model.vertexCount());
-}
-
 /// Ours with five morph targets of a face, whose weights change in every frame or stay.
 void morphs(benchmark::State& state, std::uint32_t parts, bench::Kind kind, bool changing) {
     const bench::Body& body = bench::body(parts, kind);
     const auto model = body.model();
-    osgSkin::MorphedRest rest(model, faceTargets(*model, 5));
+    osgSkin::MorphedRest rest(model, test::faceTargets(model->vertexCount(), 5));
     rest.set({0.1f, 0.2f, 0.3f, 0.4f, 0.5f});
     osgSkin::Pose pose(model->joints());
     std::vector<glm::vec3> positions(body.positions.size()), normals(body.normals.size());

@@ -30,4 +30,22 @@ inline std::vector<osgSkin::MorphTarget> someMorphs(std::size_t vertices, double
     return result;
 }
 
+/// A face of a twelfth of the vertices, as on characters, in front of all others: `targets` shapes,
+/// each of a third of it.
+inline osg::ref_ptr<const osgSkin::MorphTargets> faceTargets(std::size_t vertices,
+                                                             std::size_t targets) {
+    const std::size_t face = vertices / 12;
+    std::vector<osgSkin::MorphTarget> result(targets);
+    for (std::size_t i = 0; i < targets; ++i) {
+        result[i].name = std::to_string(i);
+        for (std::size_t k = 0; k < face / 3; ++k) {
+            result[i].vertices.push_back(
+                static_cast<std::uint32_t>(i * (face - face / 3) / targets + k));
+            result[i].positions.emplace_back(0.01f, 0.02f, -0.01f);
+            result[i].normals.emplace_back(0.1f, -0.1f, 0.2f);
+        }
+    }
+    return osgSkin::MorphTargets::create(std::move(result), vertices);
+}
+
 } // namespace test

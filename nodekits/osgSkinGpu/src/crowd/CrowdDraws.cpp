@@ -7,15 +7,20 @@
 #include <osgSkinGpu/CrowdInstance>
 
 #include <osg/BufferObject>
+#include <osg/GLExtensions>
 #include <osg/Notify>
 #include <osg/Program>
 #include <osg/RenderInfo>
+#include <osg/State>
 #include <osg/Uniform>
 
 #include <algorithm>
 #include <atomic>
 #include <string>
 
+#ifndef GL_RASTERIZER_DISCARD
+#define GL_RASTERIZER_DISCARD 0x8C89
+#endif
 #ifndef GL_R32UI
 #define GL_R32UI 0x8236
 #endif
@@ -68,7 +73,13 @@ CrowdDraws::CrowdDraws(const CrowdCharacter& character, std::size_t capacity, Co
     _list->setVertexBufferObject(new osg::VertexBufferObject);
     _visible = new osg::TextureBuffer(_list);
     _visible->setInternalFormat(GL_R32UI);
-    if (count == Count::Indirect) _commands = new osg::DefaultIndirectCommandDrawElements;
+    if (count == Count::Indirect) { // the card writes both
+        _list->getVertexBufferObject()->setUsage(GL_DYNAMIC_COPY_ARB);
+        _commands = new osg::DefaultIndirectCommandDrawElements;
+        _commands->getBufferObject()->setUsage(GL_DYNAMIC_COPY_ARB);
+    } else {
+        _list->getVertexBufferObject()->setUsage(GL_STREAM_DRAW_ARB);
+    }
     for (std::size_t level = 0; level < character.levelCount(); ++level)
         for (const CrowdCharacter::Part& part : character.parts())
             _draws.push_back(makeDraw(character, part, level, count));
@@ -163,6 +174,39 @@ void CrowdDraws::cullDraw(const Draw& draw, osgUtil::CullVisitor& cv) {
     draw.geometry->accept(cv);
     if (draw.own) cv.popStateSet();
     if (draw.material) cv.popStateSet();
+}
+
+void CrowdDraws::setCommands(osg::State& state, unsigned int members) const {
+    osg::GLBufferObject* const buffer =
+        _commands->getBufferObject()->getOrCreateGLBufferObject(state.getContextID());
+    if (buffer->isDirty()) buffer->compileBuffer();
+    std::vector<osg::DrawElementsIndirectCommand> commands(_commands->begin(), _commands->end());
+    for (osg::DrawElementsIndirectCommand& command : commands) command.instanceCount = members;
+    const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
+    state.unbindVertexBufferObject();
+    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, buffer->getGLObjectID());
+    gl.glBufferSubData(GL_ARRAY_BUFFER_ARB, 0, _commands->getTotalDataSize(), commands.data());
+    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
+}
+
+void CrowdDraws::compileGLObjects(osg::RenderInfo& renderInfo) const {
+    osg::State& state = *renderInfo.getState();
+    for (const Draw& draw : _draws) draw.geometry->compileGLObjects(renderInfo);
+    setCommands(state, 1);
+    glEnable(GL_RASTERIZER_DISCARD);
+    for (const Draw& draw : _draws) {
+        if (draw.isEmpty) continue;
+        const osg::StateSet* const states[] = {draw.material, draw.own,
+                                               draw.geometry->getStateSet()};
+        for (const osg::StateSet* one : states)
+            if (one) state.pushStateSet(one);
+        state.apply(); // a program has a variant for each set of defines
+        draw.geometry->draw(renderInfo);
+        for (const osg::StateSet* one : states)
+            if (one) state.popStateSet();
+    }
+    glDisable(GL_RASTERIZER_DISCARD);
+    setCommands(state, 0);
 }
 
 void CrowdDraws::resizeGLObjectBuffers(unsigned int maxSize) {

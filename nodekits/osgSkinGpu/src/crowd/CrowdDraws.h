@@ -52,6 +52,10 @@ public:
 
     void setBound(const osg::BoundingBox& box);
     void cull(osgUtil::CullVisitor& cv) const;
+    /// Compiles the programs below the states that are pushed, uploads textures and buffers, and
+    /// draws one member of each level unseen: drivers translate shaders at their first draw.
+    /// Indirect only.
+    void compileGLObjects(osg::RenderInfo& renderInfo) const;
     void resizeGLObjectBuffers(unsigned int maxSize);
     void releaseGLObjects(osg::State* state) const;
 
@@ -63,6 +67,8 @@ private:
         std::size_t level;
         bool isEmpty;
     };
+    /// Writes the commands of a context with so many members each.
+    void setCommands(osg::State& state, unsigned int members) const;
     static void cullDraw(const Draw& draw, osgUtil::CullVisitor& cv);
     Draw makeDraw(const CrowdCharacter& character, const CrowdCharacter::Part& part,
                   std::size_t level, Count count);

@@ -14,6 +14,8 @@
 #include <osg/Notify>
 #include <osg/State>
 #include <osg/Uniform>
+#include <osgUtil/GLObjectsVisitor>
+#include <osgUtil/IncrementalCompileOperation>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +23,8 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #ifndef GL_COMMAND_BARRIER_BIT
 #define GL_COMMAND_BARRIER_BIT 0x00000040
@@ -324,6 +328,38 @@ private:
     osg::ref_ptr<osg::StateSet> _state;
 };
 
+/// What compile visitors get of a crowd: they compile drawables, and know nothing of defines.
+class CrowdCompile : public osg::Drawable {
+public:
+    /// \param states above the draws, the topmost first
+    CrowdCompile(std::vector<osg::ref_ptr<osg::StateSet>> states,
+                 std::shared_ptr<const CrowdDraws> draws, const osg::ref_ptr<CrowdCull>& cull)
+        : _states(std::move(states)), _draws(std::move(draws)), _cull(cull) {
+        setUseDisplayList(false);
+        setUseVertexBufferObjects(true);
+    }
+
+    osg::Object* cloneType() const override { return nullptr; }
+    osg::Object* clone(const osg::CopyOp&) const override { return nullptr; }
+    void compileGLObjects(osg::RenderInfo& renderInfo) const override {
+        osg::State& state = *renderInfo.getState();
+        state.get<osg::GLExtensions>(); // canCompute() asks for known ones
+        if (!canCompute(state)) return;
+        for (const osg::ref_ptr<osg::StateSet>& one : _states) state.pushStateSet(one);
+        _draws->compileGLObjects(renderInfo);
+        state.pushStateSet(&_cull->state());
+        state.apply();
+        state.popStateSet();
+        for (std::size_t i = 0; i < _states.size(); ++i) state.popStateSet();
+        state.apply();
+    }
+
+private:
+    std::vector<osg::ref_ptr<osg::StateSet>> _states;
+    std::shared_ptr<const CrowdDraws> _draws;
+    osg::ref_ptr<CrowdCull> _cull;
+};
+
 void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
     osg::State& state = *renderInfo.getState();
     const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
@@ -377,10 +413,11 @@ void CrowdInstance::pack(osg::Vec4ui* texels) const {
 struct GpuCrowd::Inside {
     osg::ref_ptr<CrowdCharacter> character;
     std::unique_ptr<CrowdMembers> members;
-    std::unique_ptr<CrowdDraws> indirect;
+    std::shared_ptr<CrowdDraws> indirect; ///< shared with compilers that have not come to it yet
     osg::ref_ptr<CrowdCull> cull;
     std::unique_ptr<ListedDraws> listed;
-    std::mutex mutex; ///< of bounds
+    osg::ref_ptr<CrowdCompile> compile; ///< of the last compile traversal
+    std::mutex mutex;                   ///< of bounds
     std::atomic<bool> areBoundsOld{false};
     double seconds = 0.0;
     osg::ref_ptr<osg::Uniform> time = new osg::Uniform("osgSkinTime", 0.0f);
@@ -388,10 +425,11 @@ struct GpuCrowd::Inside {
 
     void rebuild(const std::vector<CrowdInstance>& instances) {
         listed = nullptr;
+        compile = nullptr;
         members = std::make_unique<CrowdMembers>(*character, instances, seconds);
         listed = std::make_unique<ListedDraws>(*character, *members);
         indirect =
-            std::make_unique<CrowdDraws>(*character, instances.size(), CrowdDraws::Count::Indirect);
+            std::make_shared<CrowdDraws>(*character, instances.size(), CrowdDraws::Count::Indirect);
         cull = new CrowdCull(*character, *indirect, members->texture());
         cull->setCount(instances.size());
         updateTime();
@@ -484,6 +522,15 @@ void GpuCrowd::setCulling(Culling culling) {
 void GpuCrowd::traverse(osg::NodeVisitor& nv) {
     osgUtil::CullVisitor* cv = nv.asCullVisitor();
     Inside& in = *_inside;
+    if (!cv && in.members &&
+        (dynamic_cast<osgUtil::GLObjectsVisitor*>(&nv) ||
+         dynamic_cast<osgUtil::StateToCompile*>(&nv))) {
+        std::vector<osg::ref_ptr<osg::StateSet>> states;
+        for (osg::Node* node : nv.getNodePath())
+            if (node->getStateSet()) states.emplace_back(node->getStateSet());
+        in.compile = new CrowdCompile(std::move(states), in.indirect, in.cull);
+        in.compile->accept(nv);
+    }
     if (!cv || !cv->getState() || getInstanceCount() == 0) return;
     const osg::State& state = *cv->getState();
     const osg::GLExtensions* extensions = osg::GLExtensions::Get(state.getContextID(), false);

@@ -2,6 +2,7 @@
 #include <osgSkinGpu/GpuModel>
 
 #include "model/PackTexels.h"
+#include "model/PackedOnce.h"
 
 #include <osgSkin/Correctives>
 #include <osgSkin/DeformJob>
@@ -9,13 +10,10 @@
 
 #include <osg/Array>
 #include <osg/BufferObject>
-#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 
 namespace osgSkin {
 namespace {
@@ -100,7 +98,8 @@ public:
         }
         const std::size_t vertices = _texels->size();
         const std::size_t count = _model.vertexCount();
-        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count), 0u};
+        (*_texels)[0] = {word(_model.joints().size()), word(vertices), word(count),
+                         word(_weights.back())};
         _texels->resize(vertices + 2 * count);
         for (std::size_t g = 0; g < chains.size(); ++g) {
             const SkinModel::Group& group = _model.groups()[g];
@@ -202,17 +201,6 @@ osg::ref_ptr<osg::Vec4uiArray> packModel(const SkinModel& model, const Correctiv
     return Packer(model, correctives).pack();
 }
 
-struct Known {
-    std::mutex mutex;
-    std::map<const SkinModel*, osg::observer_ptr<GpuModel>> models;
-};
-
-/// Never destroyed: models in an application's statics may outlive it.
-Known& known() {
-    static Known& instance = *new Known;
-    return instance;
-}
-
 double largestCoordinate(const SkinModel& model) {
     float largest = 0.0f;
     for (const glm::vec3& p : model.positions())
@@ -223,16 +211,7 @@ double largestCoordinate(const SkinModel& model) {
 } // namespace
 
 osg::ref_ptr<const GpuModel> GpuModel::of(const SkinModel& model) {
-    Known& all = known();
-    const std::lock_guard<std::mutex> lock(all.mutex);
-    osg::ref_ptr<GpuModel> found;
-    osg::observer_ptr<GpuModel>& place = all.models[&model];
-    // A null entry may be of an earlier model at this address.
-    if (!place.lock(found)) {
-        found = new GpuModel(model);
-        place = found.get();
-    }
-    return found;
+    return PackedOnce<SkinModel, GpuModel>::find(model, [&] { return new GpuModel(model); });
 }
 
 GpuModel::GpuModel(const SkinModel& model)
@@ -249,10 +228,7 @@ GpuModel::GpuModel(const SkinModel& model)
 }
 
 GpuModel::~GpuModel() {
-    Known& all = known();
-    const std::lock_guard<std::mutex> lock(all.mutex);
-    const auto found = all.models.find(_model.get());
-    if (found != all.models.end() && !found->second.valid()) all.models.erase(found);
+    PackedOnce<SkinModel, GpuModel>::forget(*_model);
 }
 
 } // namespace osgSkin

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinGpu/GpuSkin>
 
+#include "model/GpuMorphs.h"
 #include "skin/ComputeStage.h"
 #include "skin/DeformText.h"
 
 #include <osgSkin/DeformableSkin>
-#include <osgSkin/GlmOsg>
+#include <osgSkin/MorphTargets>
 #include <osgSkinGpu/GpuModel>
 #include <osgSkinGpu/GpuPalette>
 
@@ -57,15 +58,29 @@ void osgSkin_anchor(int joint, inout vec3 x, inout vec3 n, inout vec3 t) {
 
 #ifdef OSGSKIN_MORPHS
 uniform bool osgSkinIsMorphed;
-uniform samplerBuffer osgSkinMorphs;
+uniform usamplerBuffer osgSkinMorphs; // see GpuMorphs
+
+vec3 osgSkin_offset(int texel) {
+  return uintBitsToFloat(texelFetch(osgSkinMorphs, texel).xyz);
+}
 
 void osgSkin_morph(int vertex, vec3 n, inout vec3 x, inout vec3 tilt, inout vec3 t) {
   if (!osgSkinIsMorphed) return;
-  x += texelFetch(osgSkinMorphs, 3 * vertex).xyz;
-  vec3 d = texelFetch(osgSkinMorphs, 3 * vertex + 1).xyz;
+  int stride = int(texelFetch(osgSkinMorphs, 0).x);
+  ivec2 entries = ivec2(texelFetch(osgSkinMorphs, 1 + vertex).xy);
+  int weights = int(osgSkin_words(0).w); // behind the pose, four a texel
+  vec3 move = vec3(0.0), d = vec3(0.0);
+  for (int i = 0; i < entries.y; ++i) {
+    int texel = entries.x + stride * i;
+    int target = int(texelFetch(osgSkinMorphs, texel).w);
+    float weight = osgSkin_palette(weights + (target >> 2))[target & 3];
+    move += weight * osgSkin_offset(texel);
+    d += weight * osgSkin_offset(texel + 1);
+    if (stride > 2) t += weight * osgSkin_offset(texel + 2);
+  }
+  x += move;
   float along = dot(d, n);
   tilt += (d - along * n) / max(1.0 + along, 0.05);
-  t += texelFetch(osgSkinMorphs, 3 * vertex + 2).xyz;
 }
 #endif
 
@@ -132,13 +147,23 @@ std::atomic<unsigned int>& dispatches() {
 /// Computes a skin's vertices when drawn, once per pose and context.
 class SkinDispatch : public osg::Drawable {
 public:
-    explicit SkinDispatch(const osg::ref_ptr<const GpuModel>& model) : _model(model) {
+    /// \param texels of the largest buffer that the shader reads
+    SkinDispatch(const osg::ref_ptr<const GpuModel>& model, std::size_t texels)
+        : _model(model), _texels(texels) {
         setUseDisplayList(false);
         setSupportsDisplayList(false);
     }
 
     /// Sets a new pose for the next draw. Not while any thread draws.
     void setPose(unsigned int number) { _pose = number; }
+
+    /// Runs the shader for a few vertices, which the first pose overwrites: drivers translate it at
+    /// its first use.
+    void warmUp(osg::State& state) const {
+        if (!state.getLastAppliedProgramObject()) return;
+        state.get<osg::GLExtensions>()->glDispatchCompute(1, 1, 1);
+        unbindBuffers(state);
+    }
 
     bool isDone(unsigned int contextId) const { return _done[contextId] == _pose; }
 
@@ -152,17 +177,15 @@ public:
         if (id >= kMaxContexts || isDone(id)) return;
         const unsigned int pose = _pose;
         const auto* extensions = state.get<osg::GLExtensions>();
-        if (!state.getLastAppliedProgramObject() || !canReadTexels(id, _model->texelCount())) {
+        if (!state.getLastAppliedProgramObject() || !canReadTexels(id, _texels)) {
             OSG_WARN << "osgSkin: this driver cannot run the compute shader or read a skin of "
-                     << _model->texelCount() << " texels; the processor deforms" << std::endl;
+                     << _texels << " texels; the processor deforms" << std::endl;
             noteCannotCompute(id);
             return;
         }
         const auto vertices = static_cast<unsigned int>(_model->model().vertexCount());
         extensions->glDispatchCompute((vertices + kComputeThreads - 1) / kComputeThreads, 1, 1);
-        // Filling our buffers bound them as vertex buffers, behind OSG's back.
-        state.unbindVertexBufferObject();
-        extensions->glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
+        unbindBuffers(state);
         SharedBarrier::instance().need(id);
         _done[id] = pose;
         ++dispatches();
@@ -174,7 +197,14 @@ public:
     }
 
 private:
+    /// Filling our buffers bound them as vertex buffers, behind OSG's back.
+    static void unbindBuffers(osg::State& state) {
+        state.unbindVertexBufferObject();
+        state.get<osg::GLExtensions>()->glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
+    }
+
     osg::ref_ptr<const GpuModel> _model;
+    std::size_t _texels;
     std::atomic<unsigned int> _pose{0};
     mutable std::array<std::atomic<unsigned int>, kMaxContexts> _done{};
 };
@@ -213,22 +243,25 @@ public:
     SkinSlot(const DeformableSkin& skin, const osg::ref_ptr<const GpuModel>& model)
         : _geometry(skin.makeDrawnGeometry()),
           _palette(new osg::Vec4Array(static_cast<unsigned int>(model->paletteSize()))),
-          _dispatch(new SkinDispatch(model)), _state(new osg::StateSet) {
+          _state(new osg::StateSet) {
         const int attribute = skin.getTangentAttribute();
-        const bool hasMorphs = skin.getMorphTargets() != nullptr;
+        const MorphTargets* const targets = skin.getMorphTargets();
+        std::size_t texels = model->texelCount();
         setUpBin(*_state, kComputeBin);
-        _state->setAttribute(computeProgram(attribute >= 0, hasMorphs), kOurs);
+        _state->setAttribute(computeProgram(attribute >= 0, targets), kOurs);
         addInput(kModelUnit, "osgSkinModel", model->texture());
         addInput(kPaletteUnit, "osgSkinPalette", readable(*_palette, GL_STREAM_DRAW_ARB));
         addOutput(kPositionBuffer, *_geometry->getVertexArray());
         addOutput(kNormalBuffer, *_geometry->getNormalArray());
-        if (hasMorphs) {
-            _morphs = new osg::Vec4Array(kMorphTexels *
-                                         static_cast<unsigned int>(model->model().vertexCount()));
-            addInput(kMorphUnit, "osgSkinMorphs", readable(*_morphs, GL_DYNAMIC_DRAW_ARB));
+        if (targets) {
+            _palette->resize(_palette->size() + (targets->targets().size() + 3) / 4);
+            _morphs = GpuMorphs::of(*targets);
+            addInput(kMorphUnit, "osgSkinMorphs", _morphs->texture());
+            texels = std::max(texels, _morphs->texelCount());
             _isMorphed = new osg::Uniform("osgSkinIsMorphed", false);
             _state->addUniform(_isMorphed, kOurs);
         }
+        _dispatch = new SkinDispatch(model, texels);
         if (attribute < 0) return;
         const auto index = static_cast<unsigned int>(attribute);
         const osg::ref_ptr<osg::Vec4Array> rest =
@@ -240,8 +273,8 @@ public:
     /// Sets the pose and the morph weights that the next draw computes.
     void setPose(const GpuModel& model, const DeformableSkin& skin, unsigned int number) {
         writePalette(model, skin.getPose(), _palette->asVector().data());
+        if (_morphs) writeMorphs(skin, _palette->asVector().data() + model.paletteSize());
         _palette->dirty();
-        if (_morphs) setMorphs(skin);
         _dispatch->setPose(number);
     }
 
@@ -251,6 +284,14 @@ public:
 
     void compileGLObjects(osg::RenderInfo& renderInfo) const {
         _geometry->compileGLObjects(renderInfo);
+        osg::State& state = *renderInfo.getState();
+        state.get<osg::GLExtensions>(); // canCompute() asks for known ones
+        if (!canCompute(state)) return;
+        state.pushStateSet(_state);
+        state.apply();
+        _dispatch->warmUp(state);
+        state.popStateSet();
+        state.apply();
     }
     void resizeGLObjectBuffers(unsigned int maxSize) {
         _geometry->resizeGLObjectBuffers(maxSize);
@@ -264,30 +305,12 @@ public:
     }
 
 private:
-    /// Of a vertex: the offset of its position, of its normal and of its tangent.
-    static constexpr std::size_t kMorphTexels = 3;
-
-    void setMorphs(const DeformableSkin& skin) {
+    /// Writes how far the weights are from those at rest.
+    void writeMorphs(const DeformableSkin& skin, osg::Vec4* texels) {
         _isMorphed->set(skin.isMorphed());
-        const std::vector<float>& weights = skin.getMorphWeights();
-        if (!skin.isMorphed() || weights == _weights) return;
-        _weights = weights;
-        std::vector<osg::Vec4>& texels = _morphs->asVector();
-        std::fill(texels.begin(), texels.end(), osg::Vec4());
         const std::vector<MorphTarget>& targets = skin.getMorphTargets()->targets();
-        for (std::size_t i = 0; i < targets.size(); ++i) {
-            const float weight = weights[i] - targets[i].initial;
-            if (weight == 0.0f) continue;
-            const auto add = [&](const std::vector<glm::vec3>& offsets, std::size_t texel) {
-                for (std::size_t k = 0; k < offsets.size(); ++k)
-                    texels[kMorphTexels * targets[i].vertices[k] + texel] +=
-                        osg::Vec4(toOsg(offsets[k]), 0.0f) * weight;
-            };
-            add(targets[i].positions, 0);
-            add(targets[i].normals, 1);
-            add(targets[i].tangents, 2);
-        }
-        _morphs->dirty();
+        for (unsigned int i = 0; i < targets.size(); ++i)
+            texels[i / 4][i % 4] = skin.getMorphWeights()[i] - targets[i].initial;
     }
 
     void addOutput(unsigned int index, osg::Array& array) {
@@ -301,9 +324,8 @@ private:
 
     osg::ref_ptr<osg::Geometry> _geometry;
     osg::ref_ptr<osg::Vec4Array> _palette;
-    osg::ref_ptr<osg::Vec4Array> _morphs; ///< null for a skin without morph targets
+    osg::ref_ptr<const GpuMorphs> _morphs; ///< null for a skin without morph targets
     osg::ref_ptr<osg::Uniform> _isMorphed;
-    std::vector<float> _weights; ///< that _morphs has
     osg::ref_ptr<SkinDispatch> _dispatch;
     osg::ref_ptr<osg::StateSet> _state;
 };
