@@ -32,6 +32,7 @@ Scene ownShader(File);
 Scene pickPoint(File);
 Scene reachTarget(File);
 Scene shipAsOsgb(File);
+Scene swingHair(File);
 
 namespace {
 
@@ -100,6 +101,15 @@ const std::vector<Recipe>& recipes() {
          "walker.skin",
          0.3,
          {Vec3d(-1.6, -2.6, 1.5), Vec3d(-0.1, 0, 1.15)}},
+        {"swingHair",
+         swingHair,
+         "walker.skin",
+         0.2,
+         {Vec3d(-1.5, 1.3, 1.75), Vec3d(0, 0.05, 1.5)},
+         Floor::Shadowed,
+         false,
+         {},
+         true},
         {"attachSword",
          attachSword,
          "walker.skin",

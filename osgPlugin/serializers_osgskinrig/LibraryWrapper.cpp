@@ -8,6 +8,7 @@
 #include <osgDB/Registry>
 
 USE_SERIALIZER_WRAPPER(osgSkinRig_Gaits)
+USE_SERIALIZER_WRAPPER(osgSkinRig_Springs)
 USE_SERIALIZER_WRAPPER(osgSkinRig_Walker)
 
 extern "C" void wrapper_serializer_library_osgSkinRig(void) {}

@@ -234,6 +234,9 @@ std::vector<Option> makeTable() {
         onOff({"avoidBody", "off",
                "motions from files keep forearms and hands out of trunk, thighs and head"},
               &LoadOptions::avoidBody),
+        choice<std::optional<bool>, bool>(
+            {"springs", "file", "file: hair and clothes swing where the file states springs"},
+            &LoadOptions::springs, {{"file", true}, {"none", false}}),
         unitOption(),
         motionOption(),
         onOff({"gpu", "off",

@@ -97,12 +97,15 @@ BindOptions::Muscle readMuscle(const JsonReader& reader) {
     return muscle;
 }
 
+void requireFew(const JsonReader& list, std::size_t most, const char* what) {
+    if (list.size() > most)
+        list.failWith(std::to_string(list.size()) + " " + what + ", expected at most " +
+                      std::to_string(most));
+}
+
 /// Reads "muscles" as a list of the author's own, in which `true` stands for the automatic ones.
 void readMuscles(const JsonReader& list, SkinFile& skin) {
-    constexpr std::size_t most = 1000; // a body has 640; each is fitted to the skin separately
-    if (list.size() > most)
-        list.failWith(std::to_string(list.size()) + " muscles, expected at most " +
-                      std::to_string(most));
+    requireFew(list, 1000, "muscles"); // a body has 640; each is fitted to the skin separately
     list.forEachItem([&](const JsonReader& item) {
         if (item.isObject())
             skin.bind.ownMuscles.push_back(readMuscle(item));
@@ -110,6 +113,50 @@ void readMuscles(const JsonReader& list, SkinFile& skin) {
             skin.options.muscles = true;
         else
             skin.options.muscles.reset(); // false would leave out the author's own, too
+    });
+}
+
+SkinFile::Spring readSpring(const JsonReader& reader, bool zIsUp) {
+    reader.warnUnknown({"joints", "stiffness", "gravity", "drag", "radius", "centre", "colliders"});
+    SkinFile::Spring spring;
+    reader.require("joints", "a list of joints' names").forEachItem([&](const JsonReader& name) {
+        spring.joints.push_back(name.string());
+    });
+    double gravity = 0.0;
+    const auto read = [](const JsonReader& from, const char* key, double& value, double most) {
+        const auto member = from.find(key);
+        if (!member) return;
+        value = member->number();
+        if (value < 0.0 || value > most)
+            member->failWith("expected 0 to " + std::to_string(int(most)));
+    };
+    read(reader, "stiffness", spring.like.stiffness, 1000.0);
+    read(reader, "gravity", gravity, 1000.0);
+    read(reader, "drag", spring.like.drag, 1.0);
+    read(reader, "radius", spring.like.radius, 1000000.0);
+    spring.like.gravity = {0.0, zIsUp ? 0.0 : -gravity, zIsUp ? -gravity : 0.0};
+    if (const auto centre = reader.find("centre")) spring.centre = centre->string();
+    if (const auto colliders = reader.find("colliders")) {
+        requireFew(*colliders, 100, "colliders");
+        colliders->forEachItem([&](const JsonReader& item) {
+            item.warnUnknown({"joint", "from", "to", "radius"});
+            SpringSettings::Collider collider;
+            collider.joint = item.require("joint", "the joint that it moves with").string();
+            if (const auto from = item.find("from")) collider.start = from->vector();
+            collider.end = collider.start;
+            if (const auto to = item.find("to")) collider.end = to->vector();
+            item.require("radius", "a number");
+            read(item, "radius", collider.radius, 1000000.0);
+            spring.colliders.push_back(collider);
+        });
+    }
+    return spring;
+}
+
+void readSprings(const JsonReader& list, SkinFile& skin) {
+    requireFew(list, 1000, "springs");
+    list.forEachItem([&](const JsonReader& item) {
+        skin.springs.push_back(readSpring(item, skin.up == RetargetOptions::Up::Z));
     });
 }
 
@@ -263,6 +310,8 @@ void readOptions(const JsonReader& root, const ReadLimits& limits, SkinFile& ski
         if (!member) continue;
         if (option.word == "muscles" && member->isList())
             readMuscles(*member, skin);
+        else if (option.word == "springs" && member->isList())
+            readSprings(*member, skin);
         else
             readOption(option, *member, limits, skin.options);
     }

@@ -7,6 +7,7 @@
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
 #include <osgSkinRig/Retarget>
+#include <osgSkinRig/SpringSettings>
 
 #include <cstddef>
 #include <map>
@@ -39,12 +40,21 @@ struct SkinFile {
         std::string file; ///< a BVH file of one joint, in the space of that motion's file
     };
 
+    /// Joints that swing, with all joints below them.
+    struct Spring {
+        std::vector<std::string> joints;
+        SpringSettings::Joint like; ///< its gravity is along -Y, or -Z where that is down
+        std::string centre;
+        std::vector<SpringSettings::Collider> colliders; ///< relative to their joints
+    };
+
     std::string file; ///< the .skin file itself
     std::string mesh;
     std::string skeleton;          ///< the mesh's file where the description names none
     std::optional<FitOptions> fit; ///< instead of a skeleton file
     std::vector<MotionEntry> motions;
     std::vector<Prop> props;
+    std::vector<Spring> springs;
     LoadOptions options; ///< the members that are options, see optionTable()
     BindOptions bind;    ///< only joints, names and own muscles; the names serve retargeting, too
     std::string weights; ///< file of painted weights; empty: the mesh's own

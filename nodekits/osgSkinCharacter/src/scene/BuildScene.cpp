@@ -26,6 +26,7 @@
 #include <osgSkinRig/Prop>
 #include <osgSkinRig/RestSkeleton>
 #include <osgSkinRig/SkinMesh>
+#include <osgSkinRig/Springs>
 
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -347,6 +348,8 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         character.pose(character.motions.front(), 0);
     }
     play(character);
+    if (!source.springs.chains.empty() && source.options.springs.value_or(true))
+        (new Springs(source.springs, character.toWorld))->addTo(*character.skeleton);
 }
 
 } // namespace osgSkin

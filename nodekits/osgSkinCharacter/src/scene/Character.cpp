@@ -10,6 +10,7 @@
 #include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ApplyFrame>
 #include <osgSkinRig/MakeAnimation>
+#include <osgSkinRig/Springs>
 
 #include <osg/FrameStamp>
 #include <osgAnimation/Channel>
@@ -47,7 +48,11 @@ void Character::poseAt(const CharacterMotion& motion, double seconds) {
     }
     osgUtil::UpdateVisitor visitor;
     visitor.setFrameStamp(new osg::FrameStamp);
-    root->traverse(visitor); // without the manager, which would play on
+    Springs* const springs = Springs::of(*skeleton);
+    const bool swings = springs && springs->getEnabled();
+    if (swings) springs->setEnabled(false); // they need the frames before
+    root->traverse(visitor);                // without the manager, which would play on
+    if (swings) springs->setEnabled(true);
     poseSkins(*this);
 }
 

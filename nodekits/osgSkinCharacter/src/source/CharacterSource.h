@@ -16,6 +16,7 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadLimits>
 #include <osgSkinRig/RestSkeleton>
+#include <osgSkinRig/SpringSettings>
 
 #include <cstddef>
 #include <set>
@@ -61,6 +62,7 @@ struct CharacterSource {
 
     ImportedMesh body;
     RestSkeleton rest;
+    SpringSettings springs; ///< that the files state; the options may say that none swing
     FitReport fitReport;
     osg::Matrixd toWorld;    ///< rotates rest space to Z up
     double statedUnit = 0.0; ///< metres per unit of rest space, as the files state it; else 0

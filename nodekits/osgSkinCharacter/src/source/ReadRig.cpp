@@ -4,6 +4,7 @@
 #include "source/ApplyOptions.h"
 
 #include <osgSkinImport/ImportRig>
+#include <osgSkinImport/ImportSprings>
 
 #include <utility>
 
@@ -17,6 +18,7 @@ CharacterSource readRig(const std::string& file, const LoadOptions& options, Loa
     source.file = source.meshFile = file;
     source.body = std::move(rig.body);
     source.rest = std::move(rig.rest);
+    source.springs = importSprings(file, options.readOptions.get());
     source.toWorld = rig.toWorld;
     source.statedUnit = rig.metresPerUnit;
     source.skeleton = rig.skeleton;

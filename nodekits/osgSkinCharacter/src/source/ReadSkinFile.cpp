@@ -5,15 +5,19 @@
 #include "source/ApplyOptions.h"
 #include "source/LoadReport.h"
 
+#include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinImport/ImportSprings>
 #include <osgSkinImport/ShareImages>
+#include <osgSkinRig/Springs>
 
 #include <glm/gtc/quaternion.hpp>
 #include <osg/BoundingBox>
 #include <osg/Math>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -87,6 +91,36 @@ void turnIntoBody(CharacterSource& source, const std::string& file) {
                            "quarter turn about x, and its joints lie inside");
 }
 
+/// Adds the springs of a `.skin` file to those of its skeleton's.
+void addSprings(const SkinFile& skin, CharacterSource& source) {
+    const std::map<std::string, int> joints = source.rest.byName();
+    const auto centreOf = [&](const std::string& name) {
+        const auto found = joints.find(name);
+        if (found == joints.end())
+            throw Error("springs: no joint is called \"" + name + '"' +
+                        expectedNames(name, joints));
+        return source.rest.joints[static_cast<std::size_t>(found->second)].centre;
+    };
+    SpringSettings& all = source.springs;
+    std::size_t swinging = 0;
+    for (const SkinFile::Spring& spring : skin.springs) {
+        SpringSettings::Chain chain = springsBelow(source.rest, spring.joints, spring.like);
+        chain.centre = spring.centre;
+        if (!chain.centre.empty()) centreOf(chain.centre);
+        for (SpringSettings::Collider collider : spring.colliders) {
+            collider.start += centreOf(collider.joint);
+            collider.end += centreOf(collider.joint);
+            chain.colliders.push_back(all.colliders.size());
+            all.colliders.push_back(collider);
+        }
+        swinging += chain.joints.size();
+        all.chains.push_back(chain);
+        if (swinging > source.limits.joints)
+            throw Error("springs: more than " + std::to_string(source.limits.joints) +
+                        " joints, counted in each spring (option maxJoints)");
+    }
+}
+
 std::vector<std::string> filesOf(const SkinFile& skin, const CharacterSource& source) {
     std::vector<std::string> files{skin.file, skin.mesh};
     for (const std::string& file : {skin.skeleton, source.weightsFile})
@@ -134,6 +168,8 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
         if (skin.skeleton != skin.mesh) turnIntoBody(source, skin.skeleton);
     }
     const osgDB::Options* read = options.readOptions.get();
+    if (skin.skeleton == skin.mesh) source.springs = importSprings(skin.mesh, read);
+    withFileContext(file, [&] { addSprings(skin, source); });
     source.statedUnit = importUnit(skin.mesh, read);
     if (source.statedUnit == 0.0 && !skin.fit) source.statedUnit = importUnit(skin.skeleton, read);
     return source;

@@ -254,6 +254,11 @@ void addMeshes(const GltfDocument& document, const std::vector<std::size_t>& ord
 void addAnimations(const GltfDocument& document, const std::vector<int>& indexOf,
                    SourceScene& scene);
 
+/// Reads the springs of VRM 0 and 1. Reports what names no node, which is left out.
+/// \param indexOf as for addMeshes()
+/// \param scene with all nodes
+void readSprings(GltfDocument& document, const std::vector<int>& indexOf, SourceScene& scene);
+
 /// The decoded content of a Draco-compressed primitive.
 struct DracoMesh {
     std::vector<std::uint32_t> corners; ///< of triangles

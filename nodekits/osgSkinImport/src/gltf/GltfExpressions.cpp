@@ -4,6 +4,7 @@
 
 #include "files/FileText.h"
 #include "files/UniqueName.h"
+#include "gltf/GltfMembers.h"
 
 #include <cmath>
 
@@ -11,20 +12,6 @@ namespace osgSkin {
 namespace {
 
 using nlohmann::json;
-
-/// A member that is an object or a list; an empty object if there is none.
-const json& memberOf(const json& object, const char* name) {
-    static const json none = json::object();
-    const auto found = object.find(name);
-    return found != object.end() && found->is_structured() ? *found : none;
-}
-
-/// An index; beyond all lists if there is none.
-std::size_t indexOf(const json& object, const char* name) {
-    const auto found = object.find(name);
-    return found != object.end() && found->is_number_unsigned() ? found->get<std::size_t>()
-                                                                : ~std::size_t(0);
-}
 
 class ExpressionReader {
 public:

@@ -308,6 +308,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         const std::vector<int> indexOf =
             addNodes(document, rootsWithJoints(document, shown), rootName, scene);
         setRoles(document, indexOf, scene);
+        readSprings(document, indexOf, scene);
         addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
         bindRigidParts(namedJoints(document, scene), scene);

@@ -10,6 +10,7 @@
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
 #include <osgSkin/UpdateMorphs>
+#include <osgSkinRig/Springs>
 
 #include <glm/common.hpp>
 #include <osg/LOD>
@@ -318,6 +319,10 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
         result->_skins.push_back({skin, osg::computeLocalToWorld(path), appearanceOf(path)});
     }
     if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
+    if (Springs::of(*result->_skeleton))
+        OSG_NOTICE << "osgSkin: clip character: its springs swing with makeBonePlayer(), not in "
+                      "copies without bones"
+                   << std::endl;
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
         Rigid rigid{{}, part.getName(), appearanceOf(path)};

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgSkin/GlmTypes>
+
+#include <cstddef>
+#include <vector>
+
+namespace osgSkin {
+
+/// The motion of springs: tips of bones with inertia, which their joints carry.
+///
+/// A step follows the algorithm of VRMC_springBone, whose numbers are meant for 60 frames a second:
+/// a tip keeps a part of its speed, gains speed towards its pose and by gravity, keeps its distance
+/// from its joint, and is moved out of colliders. Here a frame has several steps, and what a tip
+/// keeps and gains in a step is that of the step's share of 1/60 s.
+///
+/// The specification keeps the distance by a pull along the bone as it is after the frame. That
+/// brakes the swing as much as gravity and stiffness do move it: at 60 frames a second most hair
+/// would whip without it. Steps take the same part of the speed, by the pull in the step before.
+///
+/// All in metres and in one space: the world, or that of a centre.
+class SpringChains {
+public:
+    struct Joint {
+        int parent = -1; ///< the nearest joint above that swings, before this one; -1: none
+        double stiffness = 0.0, drag = 0.0, radius = 0.0; ///< see SpringSettings::Joint
+        glm::dvec3 gravity{0.0};
+        std::vector<std::size_t> colliders; ///< indices in Frame::colliders
+    };
+
+    /// A bone in the pose without springs.
+    struct Bone {
+        glm::dvec3 head{0.0}, tip{0.0};
+        glm::dquat axes{1.0, 0.0, 0.0, 0.0};
+    };
+
+    struct Collider {
+        glm::dvec3 start{0.0}, end{0.0};
+        double radius = 0.0;
+    };
+
+    struct Frame {
+        std::vector<Bone> bones; ///< of each joint
+        std::vector<Collider> colliders;
+        glm::dquat fromWorld{1.0, 0.0, 0.0, 0.0}; ///< rotates gravity
+    };
+
+    /// \param joints with numbers of any value
+    explicit SpringChains(std::vector<Joint> joints = {});
+
+    /// Moves on to a frame; the first one begins at rest.
+    /// \param seconds since the last frame
+    /// \return false, and nothing changes, where a number is not finite
+    bool move(const Frame& frame, double seconds);
+
+    /// Where the bones' tips are.
+    const std::vector<glm::dvec3>& tips() const { return _tips; }
+
+private:
+    struct State {
+        std::size_t top = 0;        ///< the topmost joint of the chain
+        glm::dvec3 frameSpeed{0.0}; ///< of a topmost joint, in the last frame
+        double kept = 1.0;          ///< part of the speed, in a step
+        double gainToPose = 0.0;    ///< of speed, as is `gain`
+        glm::dvec3 gain{0.0};       ///< by gravity
+        // After the last step:
+        glm::dvec3 head{0.0}, headSpeed{0.0}, speed{0.0}; ///< of the joint, and of the tip
+        double pull = 0.0;            ///< speed that the joint's pull along the bone has taken away
+        glm::dvec3 bone{0.0};         ///< from the joint to the tip
+        glm::dvec3 pose{0.0};         ///< its direction without its own swing
+        glm::dquat swing{1, 0, 0, 0}; ///< from the pose without springs
+    };
+
+    void settle();
+    void carryOverJumps(double seconds, bool isPause);
+    void prepare(double seconds, double leastDrag);
+    void step(double share);
+    glm::dvec3 outOfColliders(std::size_t joint, double length, glm::dvec3 tip, double share) const;
+
+    std::vector<Joint> _joints;
+    std::vector<State> _states;
+    std::vector<glm::dvec3> _tips;
+    Frame _before, _now;
+    double _step = 0.0;     ///< seconds
+    bool _isMoving = false; ///< after the first frame
+};
+
+} // namespace osgSkin
