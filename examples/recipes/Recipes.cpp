@@ -8,7 +8,9 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/Group>
 #include <osg/Math>
+#include <osg/MatrixTransform>
 #include <osg/PolygonMode>
+#include <osg/ShapeDrawable>
 
 using File = const std::string&;
 using Scene = osg::ref_ptr<osg::Node>;
@@ -17,6 +19,7 @@ using Scene = osg::ref_ptr<osg::Node>;
 Scene attachSword(File);
 Scene castShadow(File);
 Scene chooseClip(File);
+Scene climbStairs(File, osg::Node&);
 Scene convertScene(File);
 Scene deformOnCard(File);
 Scene driveBone(File);
@@ -45,6 +48,27 @@ osg::Matrixd onEarth() {
     osg::EllipsoidModel().computeLocalToWorldTransformFromLatLongHeight(
         osg::DegreesToRadians(37.57), osg::DegreesToRadians(126.98), 38.0, place);
     return place;
+}
+
+/// A figure on stairs, and one on a slope of 20 degrees, beside each other.
+Scene climb(File file) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group, stairs = new osg::Group;
+    for (int i = 1; i <= 12; ++i) // 36 x 13.1 cm
+        stairs->addChild(new osg::ShapeDrawable(
+            new osg::Box({0.0f, -0.82f - 0.36f * float(i), 0.0655f * float(i)}, 0.9f, 0.36f,
+                         0.131f * float(i))));
+    const osg::ref_ptr<osg::Box> slope = new osg::Box({0.0f, -3.178f, 0.74f}, 0.9f, 4.6f, 0.1f);
+    slope->setRotation(osg::Quat(osg::DegreesToRadians(-20.0), osg::X_AXIS));
+    const osg::ref_ptr<osg::Node> ramp = new osg::ShapeDrawable(slope);
+    for (osg::Node* ground : {static_cast<osg::Node*>(stairs.get()), ramp.get()}) {
+        const double x = ground == ramp ? 0.7 : -0.7;
+        const osg::ref_ptr<osg::MatrixTransform> side =
+            new osg::MatrixTransform(osg::Matrixd::translate(x, 0.0, 0.0));
+        side->addChild(ground);
+        side->addChild(climbStairs(file, *ground));
+        scene->addChild(side);
+    }
+    return scene;
 }
 
 /// The recipe's view, for the samples' size.
@@ -89,6 +113,15 @@ const std::vector<Recipe>& recipes() {
     static const std::vector<Recipe> all{
         {"loadAndPlay", loadAndPlay, "walker.skin", 0.25, kFigure},
         {"chooseClip", chooseClip, "walker.skin", 0.15, kFigure},
+        {"climbStairs",
+         climb,
+         "pedestrian.skin",
+         2.4,
+         {Vec3d(-5.4, -7.4, 2.9), Vec3d(0, -2.9, 1.1)},
+         Floor::Plain,
+         false,
+         {},
+         true},
         {"fadeClips", fadeClips, "walker.skin", 0.4, kFigure, Floor::Shadowed, false, {}, true},
         {"driveBone", driveBone, "walker.skin", 0.5, kFigure},
         {"lookAtTarget",

@@ -2,6 +2,7 @@
 #include <osgSkinRig/MakeWalker>
 
 #include "walk/GaitCycle.h"
+#include "walk/Soles.h"
 
 #include "clips/JointMaps.h"
 
@@ -14,11 +15,8 @@
 #include <osgSkinRig/ReadSkeleton>
 
 #include <osg/ComputeBoundsVisitor>
-#include <osg/Geometry>
 #include <osg/Math>
 #include <osg/MatrixTransform>
-#include <osg/NodeVisitor>
-#include <osgAnimation/Skeleton>
 
 #include <algorithm>
 #include <cctype>
@@ -31,51 +29,12 @@ namespace {
     throw Error("walker: " + what);
 }
 
-constexpr double kFootLength = 0.35; ///< leg lengths from the ankle to the end of a foot
-constexpr double kSole = 0.04;       ///< leg lengths above the floor, of a sole's vertices
-
-class FindSkeleton : public osg::NodeVisitor {
-public:
-    FindSkeleton() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::MatrixTransform& node) override {
-        if (!skeleton) skeleton = dynamic_cast<osgAnimation::Skeleton*>(&node);
-        traverse(node);
-    }
-    osg::ref_ptr<osgAnimation::Skeleton> skeleton;
-};
-
-/// The vertices of a character in its rest pose.
-class FindVertices : public osg::NodeVisitor {
-public:
-    FindVertices() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-
-    void in(osg::Node& node, const osg::Matrixd& toWalker) {
-        _toWalker = toWalker;
-        node.accept(*this);
-    }
-    void apply(osg::Drawable& drawable) override {
-        const auto* skin = dynamic_cast<const DeformableSkin*>(&drawable);
-        const osg::Geometry* geometry = skin ? skin->getRestGeometry() : drawable.asGeometry();
-        const auto* array =
-            geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
-        if (!array) return;
-        const osg::Matrixd toWalker = osg::computeLocalToWorld(getNodePath()) * _toWalker;
-        for (const osg::Vec3& vertex : *array) vertices.push_back(osg::Vec3d(vertex) * toWalker);
-    }
-    std::vector<osg::Vec3d> vertices; ///< walker space
-
-private:
-    osg::Matrixd _toWalker;
-};
-
 /// A character's clips and the figure that they move.
 class WalkerMaker {
 public:
     WalkerMaker(osg::Node& character, const WalkerOptions& options)
         : _options(options), _character(ClipCharacter::create(character)) {
-        FindSkeleton find;
-        character.accept(find);
-        _skeleton = readSkeleton(*find.skeleton);
+        _skeleton = readSkeleton(_character->skeleton());
         _roles = recogniseJoints(_skeleton);
     }
 
@@ -195,42 +154,17 @@ void WalkerMaker::findBody() {
 
 /// Where the soles of the rest pose begin and end.
 void WalkerMaker::findSoles() {
-    const osg::Matrixd toRest = osg::Matrixd::inverse(_character->toWorld());
-    FindVertices find;
-    for (const ClipCharacter::Skin& skin : _character->skins())
-        find.in(*skin.skin, skin.toWorld * toRest * _body.toWalker);
-    for (const ClipCharacter::Rigid& rigid : _character->rigids())
-        for (const osg::ref_ptr<osg::Node>& part : rigid.parts) find.in(*part, _body.toWalker);
-    std::array<osg::Vec3d, 2> ankles, balls;
-    for (std::size_t side = 0; side < 2; ++side) {
+    std::array<RestFoot, 2> feet;
+    for (std::size_t side = 0; side < feet.size(); ++side) {
         const Gaits::Leg& leg = _body.legs[side];
-        ankles[side] = toOsg(_clip->joints()[leg.ankle].centre) * _body.toWalker;
-        balls[side] = toOsg(leg.ball) * _body.toWalker;
+        feet[side].ankle = toOsg(_clip->joints()[leg.ankle].centre) * _body.toWalker;
+        feet[side].ball = toOsg(leg.ball) * _body.toWalker;
     }
-    for (std::size_t side = 0; side < 2; ++side) {
-        std::vector<osg::Vec3d> foot;
-        double floor = balls[side].z();
-        for (const osg::Vec3d& vertex : find.vertices) {
-            const double away = flat(vertex - ankles[side]).length();
-            if (vertex.z() > ankles[side].z() || away > kFootLength * _body.leg ||
-                away > flat(vertex - ankles[1 - side]).length())
-                continue;
-            foot.push_back(vertex);
-            floor = std::min(floor, vertex.z());
-        }
-        double rear = balls[side] * _body.forward, front = rear;
-        for (const osg::Vec3d& vertex : foot) {
-            if (vertex.z() > floor + kSole * _body.leg) continue;
-            rear = std::min(rear, vertex * _body.forward);
-            front = std::max(front, vertex * _body.forward);
-        }
-        const auto onFloor = [&](const osg::Vec3d& beside, double ahead) {
-            osg::Vec3d place = beside + _body.forward * (ahead - beside * _body.forward);
-            place.z() = floor;
-            return toGlm(place * osg::Matrixd::inverse(_body.toWalker));
-        };
-        _body.legs[side].heel = onFloor(ankles[side], rear);
-        _body.legs[side].tip = onFloor(balls[side], front);
+    measureSoles(*_character, _body.toWalker, _body.forward, _body.leg, feet);
+    const osg::Matrixd toRest = osg::Matrixd::inverse(_body.toWalker);
+    for (std::size_t side = 0; side < feet.size(); ++side) {
+        _body.legs[side].heel = toGlm(feet[side].heel * toRest);
+        _body.legs[side].tip = toGlm(feet[side].tip * toRest);
     }
 }
 
