@@ -21,9 +21,7 @@ ClipLeg standing(double x, double bent) {
     leg.ankle.set(x, 0.0, kAnkle);
     leg.knee.set(x, -bent, kAnkle + half);
     leg.hip.set(x, 0.0, kAnkle + 2.0 * half);
-    leg.heel.set(x, 0.06, 0.0);
-    leg.ball.set(x, -0.12, 0.0);
-    leg.tip.set(x, -0.2, 0.0);
+    leg.sole = {osg::Vec3d(x, 0.06, 0.0), osg::Vec3d(x, -0.12, 0.0), osg::Vec3d(x, -0.2, 0.0)};
     leg.knees.set(0, -1, 0);
     return leg;
 }
@@ -33,10 +31,8 @@ std::array<ClipLeg, 2> standing(double bent = 0.05) {
 }
 
 LegsOnGround::FindGround heightOf(double left, double right) {
-    return [=](const osg::Vec3d& point, GroundPlane& ground) {
-        ground.point.set(point.x(), point.y(), point.x() > 0.0 ? left : right);
-        ground.normal.set(0, 0, 1);
-        return true;
+    return [=](const osg::Vec3d& point) {
+        return GroundPlane{{point.x(), point.y(), point.x() > 0.0 ? left : right}};
     };
 }
 
@@ -83,11 +79,10 @@ TEST(LegsOnGround, BendStraightLegsForward) {
 TEST(LegsOnGround, TurnFeetToTheSlope) {
     LegsOnGround legs(0.0, kLeg);
     const double slope = std::tan(0.35);
-    legs.step(standing(), kStep, {}, [&](const osg::Vec3d& point, GroundPlane& ground) {
-        ground.point.set(point.x(), point.y(), -slope * point.y());
-        ground.normal.set(0.0, slope, 1.0);
-        ground.normal.normalize();
-        return true;
+    osg::Vec3d normal(0.0, slope, 1.0);
+    normal.normalize();
+    legs.step(standing(), kStep, {}, [&](const osg::Vec3d& point) {
+        return GroundPlane{{point.x(), point.y(), -slope * point.y()}, normal};
     });
     for (std::size_t side = 0; side < 2; ++side) {
         const osg::Vec3d up = legs.turns(side).foot * osg::Vec3d(0, 0, 1);
@@ -97,7 +92,7 @@ TEST(LegsOnGround, TurnFeetToTheSlope) {
 
 TEST(LegsOnGround, KeepTheClipWhereThereIsNoGround) {
     LegsOnGround legs(0.0, kLeg);
-    const auto none = [](const osg::Vec3d&, GroundPlane&) { return false; };
+    const auto none = [](const osg::Vec3d&) { return std::optional<GroundPlane>(); };
     legs.step(standing(), kStep, {}, heightOf(0.2, 0.2));
     EXPECT_GT(legs.lift(), 0.1);
     for (int i = 0; i < 60; ++i) legs.step(standing(), kStep, {}, none);

@@ -27,10 +27,6 @@ namespace {
 
 constexpr double kRange = 0.6; ///< leg lengths above and below the clips' floor
 
-bool isFinite(const osg::Vec3d& v) {
-    return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
-}
-
 class FindBones : public osg::NodeVisitor {
 public:
     FindBones() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -185,20 +181,17 @@ bool GroundFeet::findBones(osgAnimation::Bone& top) {
     return true;
 }
 
-bool GroundFeet::findGround(const osg::Vec3d& point, GroundPlane& ground) const {
+std::optional<GroundPlane> GroundFeet::findGround(const osg::Vec3d& point) const {
     const double range = kRange * _leg;
     const osg::Vec3d above(point.x(), point.y(), _floor + range);
     const osg::Vec3d below(point.x(), point.y(), _floor - range);
     Surface surface;
-    if (!_ground(above * _toWorld, below * _toWorld, surface)) return false;
-    const osg::Matrixd toLevel = osg::Matrixd::inverse(_toWorld);
-    const double height = (surface.point * toLevel).z();
+    if (!_ground(above * _toWorld, below * _toWorld, surface)) return {};
+    const double height = (surface.point * osg::Matrixd::inverse(_toWorld)).z();
     osg::Vec3d normal = osg::Matrixd::transform3x3(_toWorld, surface.normal);
-    if (!(std::abs(height - _floor) <= range) || !isFinite(normal) || !(normal.normalize() > 0.0))
-        return false;
-    ground.point.set(point.x(), point.y(), height);
-    ground.normal = normal;
-    return true;
+    if (!(std::abs(height - _floor) <= range) || !(normal.normalize() > 0.0) || !normal.valid())
+        return {};
+    return GroundPlane{{point.x(), point.y(), height}, normal};
 }
 
 void GroundFeet::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, double dt) {
@@ -215,17 +208,14 @@ void GroundFeet::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, dou
         clip[side] = {places[0].getTrans(),
                       places[1].getTrans(),
                       places[2].getTrans(),
-                      leg.heel * places[2],
-                      leg.ball * places[2],
-                      leg.tip * places[3],
-                      knees};
+                      knees,
+                      {leg.heel * places[2], leg.ball * places[2], leg.tip * places[3]}};
     }
     if (!_onGround) _onGround = std::make_unique<LegsOnGround>(_floor, _leg);
     const osg::Matrixd carried = _toWorld * osg::Matrixd::inverse(toWorld);
     _toWorld = toWorld;
-    _onGround->step(clip, dt, carried, [this](const osg::Vec3d& point, GroundPlane& ground) {
-        return findGround(point, ground);
-    });
+    _onGround->step(clip, dt, carried,
+                    [this](const osg::Vec3d& point) { return findGround(point); });
 
     const osg::Matrixd toSkeleton = osg::Matrixd::inverse(_toLevel);
     const auto turn = [&](osgAnimation::Bone& bone, const osg::Quat& rotation) {

@@ -65,7 +65,8 @@ void settle(double& value, double& speed, double time, double dt) {
     value = (value + push) * left;
 }
 
-void follow(osg::Vec3d& value, const osg::Vec3d& target, double time, double dt) {
+template <typename T>
+void follow(T& value, const T& target, double time, double dt) {
     value += (target - value) * (1.0 - std::exp(-dt / time));
 }
 
@@ -76,112 +77,78 @@ double GroundPlane::heightAt(const osg::Vec3d& place) const {
     return point.z() - (away.x() * normal.x() + away.y() * normal.y()) / normal.z();
 }
 
-LegsOnGround::Sole LegsOnGround::findSole(const osg::Vec3d& heel, const osg::Vec3d& ball,
-                                          const osg::Vec3d& tip, const FindGround& ground) {
-    Sole result;
-    result.heel = heel;
-    result.ball = ball;
-    result.tip = tip;
-    result.hasHeel = ground(heel, result.atHeel);
-    result.hasBall = ground(ball, result.atBall);
-    result.hasTip = ground(tip, result.atTip);
-    return result;
-}
-
-/// The plane on which heel and ball stand.
-/// \param isOnEdge whether they are on different steps; it is then the upper one
-GroundPlane LegsOnGround::findPlane(const Sole& sole, bool& isOnEdge) const {
-    const osg::Vec3d& heel = sole.heel;
-    const osg::Vec3d& ball = sole.ball;
-    GroundPlane result{{ball.x(), ball.y(), _floor}};
-    if (sole.hasBall)
-        result = sole.atBall;
-    else if (sole.hasHeel)
-        result = sole.atHeel;
-    else if (sole.hasTip)
-        result = sole.atTip;
-    isOnEdge = false;
-    if (sole.hasBall && sole.hasHeel) {
-        const double edge = kEdge * _leg, rise = sole.atBall.point.z() - sole.atHeel.point.z();
-        const double byBall = sole.atBall.point.z() - sole.atBall.heightAt(heel);
-        const double byHeel = sole.atHeel.heightAt(ball) - sole.atHeel.point.z();
-        const osg::Vec3d along = level(ball - heel), middle = (heel + ball) * 0.5;
-        isOnEdge = rise < std::min(byBall, byHeel) - edge || rise > std::max(byBall, byHeel) + edge;
-        if (isOnEdge && sole.atHeel.heightAt(middle) > sole.atBall.heightAt(middle)) {
-            result = sole.atHeel;
-        } else if (!isOnEdge && along.length() > edge) { // both points are on it
-            const osg::Vec3d direction = unit(along + osg::Vec3d(0.0, 0.0, rise));
-            result.normal = unit(result.normal - direction * (result.normal * direction));
-        }
-    }
-    if (result.normal.z() < kSteepest) result.normal.set(0.0, 0.0, 1.0);
-    result.point = {ball.x(), ball.y(), result.heightAt(ball)};
-    return result;
-}
-
-/// The part of the way between two points that is on a plane, which begins there.
-double LegsOnGround::shareOn(const GroundPlane& plane, const osg::Vec3d& from, const osg::Vec3d& to,
-                             const FindGround& ground) const {
-    double low = 0.0, high = 1.0;
-    for (int i = 0; i < 3; ++i) {
-        const double middle = 0.5 * (low + high);
-        const osg::Vec3d place = from + (to - from) * middle;
-        GroundPlane found;
-        const bool isOn = ground(place, found) &&
-                          std::abs(found.point.z() - plane.heightAt(place)) <= kEdge * _leg;
-        (isOn ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
-/// The step on which a foot is to stand.
+/// The plane on which a foot is to stand: that of its heel and its ball, or where these are on
+/// different steps the upper one, if enough of the sole is on it.
 /// \param chosen before, which it keeps while any part of the sole is on it; null: none
 /// \param shift off the edges of higher steps
-GroundPlane LegsOnGround::chooseStep(const Sole& sole, const GroundPlane* chosen,
-                                     const FindGround& ground, osg::Vec3d& shift) const {
+GroundPlane LegsOnGround::findPlane(const SolePoints& sole, const GroundPlane* chosen,
+                                    const FindGround& ground, osg::Vec3d& shift) const {
     const double edge = kEdge * _leg;
-    bool isOnEdge = false;
-    const GroundPlane upper = findPlane(sole, isOnEdge);
-    const osg::Vec3d direction = unit(level(sole.tip - sole.heel));
-    const osg::Vec3d heelToBall = level(sole.ball - sole.heel);
-    const auto isAbove = [&](bool has, const GroundPlane& at, const GroundPlane& plane) {
-        return has && at.point.z() > plane.heightAt(at.point) + edge;
+    const auto& [heel, ball, tip] = sole;
+    const std::optional<GroundPlane> atHeel = ground(heel), atBall = ground(ball),
+                                     atTip = ground(tip);
+    const auto over = [](const std::optional<GroundPlane>& at, const GroundPlane& plane) {
+        return at->point.z() - plane.heightAt(at->point);
     };
-    GroundPlane plane = upper;
-    if (isOnEdge && sole.atHeel.heightAt(sole.ball) > sole.atBall.heightAt(sole.ball) &&
-        shareOn(sole.atHeel, sole.heel, sole.ball, ground) < kOnUpper)
-        plane = sole.atBall;
-    if (chosen && supports(sole, *chosen) &&
-        std::abs(plane.heightAt(sole.ball) - chosen->heightAt(sole.ball)) > edge)
-        plane = *chosen;
-    shift = {};
-    if (isAbove(sole.hasHeel, sole.atHeel, plane)) {
-        shift = heelToBall * shareOn(sole.atHeel, sole.heel, sole.ball, ground) +
-                direction * (kMargin * _leg);
-    } else if (isAbove(sole.hasBall, sole.atBall, plane)) {
-        shift = heelToBall * shareOn(plane, sole.heel, sole.ball, ground) +
-                level(sole.heel - sole.tip) - direction * (kMargin * _leg);
-    } else if (isAbove(sole.hasTip, sole.atTip, plane)) {
-        shift = level(sole.tip - sole.ball) * (shareOn(plane, sole.ball, sole.tip, ground) - 1.0) -
-                direction * (kMargin * _leg);
+    const auto isAbove = [&](const std::optional<GroundPlane>& at, const GroundPlane& plane) {
+        return at && over(at, plane) > edge;
+    };
+    const auto isOn = [&](const std::optional<GroundPlane>& at, const GroundPlane& plane) {
+        return at && std::abs(over(at, plane)) <= edge;
+    };
+    // The part of the way between two points that is on a plane, which begins there.
+    const auto shareOn = [&](const GroundPlane& plane, const osg::Vec3d& from,
+                             const osg::Vec3d& to) {
+        double low = 0.0, high = 1.0;
+        for (int i = 0; i < 3; ++i) {
+            const double middle = 0.5 * (low + high);
+            (isOn(ground(from + (to - from) * middle), plane) ? low : high) = middle;
+        }
+        return 0.5 * (low + high);
+    };
+    GroundPlane plane{{ball.x(), ball.y(), _floor}};
+    if (atBall)
+        plane = *atBall;
+    else if (atHeel)
+        plane = *atHeel;
+    else if (atTip)
+        plane = *atTip;
+    const osg::Vec3d along = level(ball - heel);
+    GroundPlane upper = plane;
+    if (atHeel && atBall) {
+        const double rise = atBall->point.z() - atHeel->point.z();
+        const double byBall = rise + over(atHeel, *atBall), byHeel = rise - over(atBall, *atHeel);
+        if (rise < std::min(byBall, byHeel) - edge || rise > std::max(byBall, byHeel) + edge) {
+            const osg::Vec3d middle = (heel + ball) * 0.5;
+            if (atHeel->heightAt(middle) > atBall->heightAt(middle)) {
+                upper = *atHeel;
+                if (shareOn(upper, heel, ball) >= kOnUpper) plane = upper;
+            }
+        } else if (along.length() > edge) { // both points are on it
+            const osg::Vec3d direction = unit(along + osg::Vec3d(0.0, 0.0, rise));
+            plane.normal = unit(plane.normal - direction * (plane.normal * direction));
+            upper = plane;
+        }
     }
+    if (chosen && std::abs(plane.heightAt(ball) - chosen->heightAt(ball)) > edge &&
+        (isOn(atHeel, *chosen) || isOn(atBall, *chosen) || isOn(atTip, *chosen)))
+        plane = *chosen;
+    const osg::Vec3d margin = unit(level(tip - heel)) * (kMargin * _leg);
+    shift = {};
+    if (isAbove(atHeel, plane))
+        shift = along * shareOn(*atHeel, heel, ball) + margin;
+    else if (isAbove(atBall, plane))
+        shift = along * shareOn(plane, heel, ball) + level(heel - tip) - margin;
+    else if (isAbove(atTip, plane))
+        shift = level(tip - ball) * (shareOn(plane, ball, tip) - 1.0) - margin;
     if (shift.length() > kMaxShift * _leg) {
         shift = {};
         plane = upper;
     }
-    if (sole.hasTip && shift.length2() == 0.0)
-        plane.point.z() += std::max(0.0, sole.atTip.point.z() - plane.heightAt(sole.tip));
-    plane.point = {sole.ball.x(), sole.ball.y(), plane.heightAt(sole.ball)};
+    if (plane.normal.z() < kSteepest) plane.normal.set(0.0, 0.0, 1.0);
+    if (atTip && shift.length2() == 0.0) plane.point.z() += std::max(0.0, over(atTip, plane));
+    plane.point = {ball.x(), ball.y(), plane.heightAt(ball)};
     return plane;
-}
-
-/// Whether any part of a sole is on a plane.
-bool LegsOnGround::supports(const Sole& sole, const GroundPlane& plane) const {
-    const auto isOn = [&](bool has, const GroundPlane& at) {
-        return has && std::abs(at.point.z() - plane.heightAt(at.point)) <= kEdge * _leg;
-    };
-    return isOn(sole.hasHeel, sole.atHeel) || isOn(sole.hasBall, sole.atBall) ||
-           isOn(sole.hasTip, sole.atTip);
 }
 
 /// How far a foot in the air goes on: as far beyond the other one as it was behind, or until it
@@ -190,129 +157,121 @@ double LegsOnGround::wayLeft(const ClipLeg& leg, const Foot& foot, const Foot& o
     const double speed = foot.speed.length();
     if (!(speed > 0.0)) return 0.0;
     const osg::Vec3d direction = foot.speed / speed;
-    const osg::Vec3d beside = other.isPlanted ? other.ball : other.lifted;
+    const osg::Vec3d beside = other.isPlanted ? other.sole[Ball] : other.lifted;
     const double stop = foot.brake > 0.0 ? 0.5 * speed * speed / foot.brake : 1e9 * _leg;
-    const double mirrored = (beside * 2.0 - foot.lifted - leg.ball) * direction;
+    const double mirrored = (beside * 2.0 - foot.lifted - leg.sole[Ball]) * direction;
     return std::min({std::max(mirrored, 0.05 * speed), stop, 1.2 * _leg});
 }
 
+/// The height of a foot's ground at a place, without what it has to lose yet.
+double LegsOnGround::heightOf(const Foot& foot, const osg::Vec3d& place) {
+    const double from = foot.from.heightAt(place), rise = foot.next.heightAt(place) - from;
+    const bool isUp = foot.next.point.z() > foot.from.heightAt(foot.next.point);
+    return from + (isUp ? std::max(rise, 0.0) : std::min(rise, 0.0)) * foot.share + foot.clear;
+}
+
+/// Finds the foot's speed, and whether it stands.
+void LegsOnGround::measure(const ClipLeg& leg, Foot& foot, double dt) const {
+    const double before = foot.speed.length();
+    double height = leg.sole[Ball].z() - _floor, slowest = std::numeric_limits<double>::max();
+    for (const SolePoint point : {Heel, Tip, Ball}) {
+        foot.speed = dt > 0.0 ? level(leg.sole[point] - foot.sole[point]) / dt : osg::Vec3d();
+        slowest = std::min(slowest, foot.speed.length());
+        height = std::min(height, leg.sole[point].z() - _floor);
+    }
+    if (dt > 0.0) // smoothed: clips have steps in their speeds
+        follow(foot.brake, (before - foot.speed.length()) / dt, kBrakeTime, dt);
+    const bool isLow = height < kPlanted * _leg, isSlow = slowest < kSlow * _leg;
+    // Where a clip begins again, a foot may slide for a moment.
+    foot.slides = isLow && isSlow ? 0.0 : foot.slides + dt;
+    foot.isPlanted = isLow && (isSlow || (foot.isPlanted && foot.slides < kSlideTime));
+    foot.stood = foot.isPlanted ? foot.stood + dt : 0.0;
+}
+
 /// A foot on the ground.
-void LegsOnGround::stand(const ClipLeg& leg, Foot& foot, double dt, const FindGround& ground) {
-    const double before = heightOf(foot, leg.ball);
+void LegsOnGround::stand(const ClipLeg& leg, Foot& foot, double dt,
+                         const FindGround& ground) const {
+    const osg::Vec3d& ball = leg.sole[Ball];
+    const double before = heightOf(foot, ball);
     osg::Vec3d shift;
-    const GroundPlane found =
-        chooseStep(findSole(leg.heel, leg.ball, leg.tip, ground), &foot.next, ground, shift);
+    const GroundPlane found = findPlane(leg.sole, &foot.next, ground, shift);
     // It comes down on its heel, and goes on until it is flat.
     if (foot.speed.length() > kRolling * _leg) follow(foot.shift, shift, kShiftTime, dt);
-    const double step = found.point.z() - foot.next.heightAt(leg.ball);
-    foot.share = foot.way = 1.0;
-    foot.clear = 0.0;
-    foot.from = foot.next;
-    foot.lifted = leg.ball;
-    foot.error -= heightOf(foot, leg.ball) - before;
+    const double landed = foot.next.heightAt(ball), step = found.point.z() - landed;
+    foot.error -= landed - before;
     if (std::abs(step) > kEdge * _leg) foot.error -= step; // else a slope, or ground that moves
     foot.from = foot.next = found;
+    foot.lifted = ball;
+    foot.share = foot.way = 1.0;
+    foot.clear = 0.0;
 }
 
 /// A foot in the air.
 void LegsOnGround::swing(const ClipLeg& leg, Foot& foot, const Foot& other, double dt,
-                         const FindGround& ground) {
+                         const FindGround& ground) const {
+    const auto& [heel, ball, tip] = leg.sole;
     const double speed = foot.speed.length(), left = wayLeft(leg, foot, other);
-    const double gone = level(leg.ball - foot.lifted).length();
-    const osg::Vec3d direction = speed > 0.0 ? foot.speed / speed : osg::Vec3d();
-    const osg::Vec3d there = leg.ball + direction * left;
-    const osg::Vec3d along = unit(level(leg.tip - leg.heel));
-    const Sole sole = findSole(there - along * (leg.ball - leg.heel).length(), there,
-                               there + along * (leg.tip - leg.ball).length(), ground);
+    const double gone = level(ball - foot.lifted).length();
+    const osg::Vec3d direction = unit(foot.speed), along = unit(level(tip - heel));
+    const osg::Vec3d there = ball + direction * left;
     foot.way = std::max(foot.way, gone / std::max(gone + left, 1e-6 * _leg));
     osg::Vec3d shift;
-    const GroundPlane found =
-        chooseStep(sole, foot.way > kChosen ? &foot.next : nullptr, ground, shift);
+    const GroundPlane found = findPlane(
+        {there - along * (ball - heel).length(), there, there + along * (tip - ball).length()},
+        foot.way > kChosen ? &foot.next : nullptr, ground, shift);
     follow(foot.shift, shift, foot.way < kChosen ? kWaitTime : kShiftTime, dt);
     const bool isUp = found.point.z() > foot.from.heightAt(found.point);
     foot.share = isUp ? ramp(0.0, 0.7, foot.way) : ramp(0.2, 0.85, foot.way);
-    const double before = heightOf(foot, leg.ball);
+    const double before = heightOf(foot, ball);
     foot.next = found;
     foot.clear = 0.0;
+    const double height = heightOf(foot, ball);
     // Over the edges before the toes and below the heel.
-    const double base = heightOf(foot, leg.ball);
     const auto above = [&](const osg::Vec3d& point, double clip) {
-        GroundPlane below;
-        return ground(point, below)
-                   ? below.point.z() - heightOf(foot, point) - std::max(0.0, clip - _floor)
-                   : 0.0;
+        const std::optional<GroundPlane> below = ground(point);
+        return below ? below->point.z() - heightOf(foot, point) - std::max(0.0, clip - _floor)
+                     : 0.0;
     };
-    const osg::Vec3d tip = leg.tip + foot.shift;
+    const osg::Vec3d toes = tip + foot.shift;
     const double clear =
-        std::max({0.0, above(leg.heel + foot.shift, leg.heel.z()),
-                  above(tip + direction * std::min(kLead * speed, left), tip.z())});
+        std::max({0.0, above(heel + foot.shift, heel.z()),
+                  above(toes + direction * std::min(kLead * speed, left), tip.z())});
     // It waits before an edge until it is above.
-    const bool isBehind = above(tip, tip.z()) > before - base + foot.error + kMargin * _leg;
+    const bool isBehind = above(toes, tip.z()) > before - height + foot.error + kMargin * _leg;
     if (isBehind && foot.shift.length() < kMaxWait * _leg) foot.shift -= foot.speed * dt;
     foot.clear = clear;
-    foot.error -= base + clear - before;
-}
-
-/// The ground of a foot, without what it has to lose yet.
-double LegsOnGround::heightOf(const Foot& foot, const osg::Vec3d& ball) {
-    const double from = foot.from.heightAt(ball), rise = foot.next.heightAt(ball) - from;
-    const bool isUp = foot.next.point.z() > foot.from.heightAt(foot.next.point);
-    return from + (isUp ? std::max(rise, 0.0) : std::min(rise, 0.0)) * foot.share + foot.clear;
+    foot.error -= height + clear - before;
 }
 
 /// Where a foot is: on the plane below it, as its clip is on the floor.
 void LegsOnGround::place(const ClipLeg& leg, std::size_t side, double dt,
                          const FindGround& ground) {
     Foot& foot = _feet[side];
-    const osg::Vec3d& ball = leg.ball;
+    const osg::Vec3d& ball = leg.sole[Ball];
     if (!_isPlaced) {
         foot = {};
-        foot.from = foot.next =
-            chooseStep(findSole(leg.heel, ball, leg.tip, ground), nullptr, ground, foot.shift);
+        foot.from = foot.next = findPlane(leg.sole, nullptr, ground, foot.shift);
         foot.normal = foot.next.normal;
-        foot.height = foot.next.point.z();
         foot.lifted = ball;
         foot.stood = kLanding;
     } else {
-        const auto speedOf = [&](const osg::Vec3d& now, const osg::Vec3d& before) {
-            return dt > 0.0 ? level(now - before) / dt : osg::Vec3d();
-        };
-        const double before = foot.speed.length();
-        const double slowest =
-            std::min({speedOf(leg.heel, foot.heel).length(), speedOf(ball, foot.ball).length(),
-                      speedOf(leg.tip, foot.tip).length()});
-        foot.speed = speedOf(ball, foot.ball);
-        if (dt > 0.0) // smoothed: clips have steps in their speeds
-            foot.brake += ((before - foot.speed.length()) / dt - foot.brake) *
-                          (1.0 - std::exp(-dt / kBrakeTime));
-        const double sole = std::min({leg.heel.z(), ball.z(), leg.tip.z()}) - _floor;
         const bool wasPlanted = foot.isPlanted;
-        foot.isPlanted = sole < kPlanted * _leg && slowest < kSlow * _leg;
-        foot.stood = foot.isPlanted ? foot.stood + dt : 0.0;
-        // Where a clip begins again, a foot may slide for a moment.
-        foot.slides = foot.isPlanted ? 0.0 : foot.slides + dt;
-        if (wasPlanted && sole < kPlanted * _leg && foot.slides < kSlideTime) foot.isPlanted = true;
+        measure(leg, foot, dt);
         if (wasPlanted != foot.isPlanted) _newest = side;
-        if (wasPlanted && !foot.isPlanted) {
-            foot.lifted = foot.ball;
-            foot.way = 0.0;
-        }
+        if (wasPlanted && !foot.isPlanted) foot.way = 0.0;
         if (foot.isPlanted)
             stand(leg, foot, dt, ground);
         else
             swing(leg, foot, _feet[1 - side], dt, ground);
-        settle(foot.error, foot.errorSpeed,
-               foot.stood > 0.0 && foot.stood < kLanding ? kLandTime : kFootTime, dt);
-        const osg::Vec3d normal =
-            foot.from.normal * (1.0 - foot.share) + foot.next.normal * foot.share;
-        follow(foot.normal, normal, kNormalTime, dt);
+        const bool isLanding = foot.isPlanted && foot.stood < kLanding;
+        settle(foot.error, foot.errorSpeed, isLanding ? kLandTime : kFootTime, dt);
+        follow(foot.normal, foot.from.normal * (1.0 - foot.share) + foot.next.normal * foot.share,
+               kNormalTime, dt);
         foot.normal = unit(foot.normal);
-        foot.height = heightOf(foot, ball) + foot.error;
     }
-    foot.heel = leg.heel;
-    foot.ball = ball;
-    foot.tip = leg.tip;
-    const osg::Vec3d onFloor(ball.x(), ball.y(), _floor), onGround(ball.x(), ball.y(), foot.height);
+    foot.sole = leg.sole;
+    const osg::Vec3d onFloor(ball.x(), ball.y(), _floor);
+    const osg::Vec3d onGround(ball.x(), ball.y(), heightOf(foot, ball) + foot.error);
     foot.turns.foot = shortestArc(osg::Vec3d(0.0, 0.0, 1.0), foot.normal);
     foot.ankle = onGround + foot.turns.foot * (leg.ankle - onFloor) + foot.shift;
 }
@@ -394,9 +353,8 @@ void LegsOnGround::step(const std::array<ClipLeg, 2>& clip, double dt, const osg
         }
         foot.normal = osg::Matrixd::transform3x3(foot.normal, carried);
         foot.shift = osg::Matrixd::transform3x3(foot.shift, carried);
-        for (osg::Vec3d* point : {&foot.lifted, &foot.heel, &foot.ball, &foot.tip})
-            *point = *point * carried;
-        foot.height -= carriedUp;
+        foot.lifted = foot.lifted * carried;
+        for (osg::Vec3d& point : foot.sole) point = point * carried;
     }
     // A figure that is put on a step at once goes there in its own time.
     if (std::abs(carriedUp) > kEdge * _leg) _lift -= carriedUp;
