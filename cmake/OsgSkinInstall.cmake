@@ -84,7 +84,7 @@ foreach(package TBB meshoptimizer draco) # used where they are found
 endforeach()
 string(TOLOWER "${osgskin_TBB}" osgskin_tbb) # its pkg-config file
 osgskin_install_kit(osgSkin runtime dev "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation"
-  openscenegraph-osgUtil libhwy ${osgskin_tbb})
+  openscenegraph-osgUtil ${osgskin_tbb})
 osgskin_install_kit(osgSkinRig runtime dev "Skeletons, motions and retargeting for osgSkin" "osgSkin")
 osgskin_install_kit(osgSkinGpu runtime dev "Deforms on a graphics card for osgSkin" "osgSkinRig" gl)
 if(TARGET osgSkinImport)
@@ -119,7 +119,7 @@ else()
       "osgSkinCharacter osgdb_serializers_osgskin")
   endif()
   # The packages whose targets our archives name, for osgSkinConfig.cmake.
-  set(packages hwy OpenGL ${osgskin_TBB} ${osgskin_meshoptimizer})
+  set(packages OpenGL ${osgskin_TBB} ${osgskin_meshoptimizer})
   if(TARGET osgSkinImport)
     list(APPEND packages assimp ZLIB nlohmann_json ${osgskin_draco})
   endif()

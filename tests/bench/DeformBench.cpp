@@ -5,6 +5,7 @@
 #include "CharacterBench.h"
 #include "LoadBench.h"
 #include "SomeMorphs.h"
+#include "core/SimdTargets.h"
 
 #include <osgSkin/DeformPool>
 #include <osgSkin/MorphedRest>
@@ -160,7 +161,7 @@ void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
     job.positions = positions.data();
     job.normals = normals.data();
     job.positionCount = job.normalCount = positions.size();
-    if (target > 0) hwy::SetSupportedTargetsForTest(target);
+    if (target > 0) osgSkin::setSimdTargets(target);
     std::size_t frame = 0;
     for ([[maybe_unused]] auto iteration : state) {
         const auto& skinning = body.skinning[frame++ % body.skinning.size()];
@@ -171,7 +172,7 @@ void ours(benchmark::State& state, std::uint32_t parts, std::int64_t target,
             target < 0 ? job.runReference() : job.run();
         benchmark::ClobberMemory();
     }
-    hwy::SetSupportedTargetsForTest(0);
+    osgSkin::setSimdTargets(0);
     count(state, positions.size());
 }
 
@@ -325,7 +326,7 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark("pose bounds/4k", poseBounds, bench::Kind::Turned);
     benchmark::RegisterBenchmark("pose bounds, fast shapes/4k", poseBounds, bench::Kind::Shaped);
     std::vector<std::int64_t> targets;
-    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
+    for (std::int64_t rest = osgSkin::simdTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         targets.push_back(rest & -rest);
     // A pool uses a second thread only if that pays off: not at 4k.
     const osg::ref_ptr<osgSkin::DeformPool> one = new osgSkin::DeformPool(1);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/SimdTargets.h"
+
 #include <osgSkin/Deform>
 
 #include <gtest/gtest.h>
@@ -26,7 +28,7 @@ inline std::ostream& operator<<(std::ostream& out, const Target& target) {
 /// The reference and every instruction set of this machine.
 inline std::vector<Target> allTargets() {
     std::vector<Target> result = {{"reference", 0}};
-    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
+    for (std::int64_t rest = osgSkin::simdTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
         result.push_back({hwy::TargetName(rest & -rest), rest & -rest});
     return result;
 }
@@ -34,8 +36,8 @@ inline std::vector<Target> allTargets() {
 /// Tests that run once per kernel.
 class EachTarget : public testing::TestWithParam<Target> {
 protected:
-    void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam().bit); }
-    void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+    void SetUp() override { osgSkin::setSimdTargets(GetParam().bit); }
+    void TearDown() override { osgSkin::setSimdTargets(0); }
 
     bool isReference() const { return GetParam().bit == 0; }
 
