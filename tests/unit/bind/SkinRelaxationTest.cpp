@@ -72,7 +72,9 @@ TEST(SkinRelaxation, KeepsTheRestPose) {
     for (const bool isSoft : {false, true}) {
         const ShapedJoint joint = tube(isSoft, 0.5);
         const std::vector<glm::dvec3> rest = posed(joint, bentBy(0.0));
-        EXPECT_LT(largestMove(SkinRelaxation(joint).relaxed(rest, joint.turnsOf(bentBy(0.0))), rest), 1e-9);
+        EXPECT_LT(
+            largestMove(SkinRelaxation(joint).relaxed(rest, joint.turnsOf(bentBy(0.0))), rest),
+            1e-9);
     }
 }
 
@@ -80,7 +82,8 @@ TEST(SkinRelaxation, KeepsSkinThatIsRigidAndFarFromTheBend) {
     const ShapedJoint joint = tube(true, 0.3);
     const BendTwist bend = bentBy(60.0);
     const std::vector<glm::dvec3> before = posed(joint, bend);
-    const std::vector<glm::dvec3> after = SkinRelaxation(joint).relaxed(before, joint.turnsOf(bend));
+    const std::vector<glm::dvec3> after =
+        SkinRelaxation(joint).relaxed(before, joint.turnsOf(bend));
     for (std::size_t v = 0; v < before.size(); ++v)
         if (std::abs(joint.vertices[v].from.y) > 3.0) {
             EXPECT_LT(glm::distance(after[v], before[v]), 1e-3) << v;
@@ -94,7 +97,8 @@ TEST(SkinRelaxation, RoundsTheSkinOfSoftJoints) {
     const std::size_t peak = kRings / 2 * kRound;
     const glm::dvec3 before = points[peak];
     points[peak] *= 1.3; // a spike
-    const std::vector<glm::dvec3> after = SkinRelaxation(joint).relaxed(points, joint.turnsOf(bend));
+    const std::vector<glm::dvec3> after =
+        SkinRelaxation(joint).relaxed(points, joint.turnsOf(bend));
     EXPECT_LT(glm::distance(after[peak], before), 0.5 * glm::distance(points[peak], before));
 }
 
@@ -102,7 +106,8 @@ TEST(SkinRelaxation, SmoothsOtherJointsWhereTheyAreCompressedAlone) {
     const ShapedJoint joint = tube(false, 0.35);
     const BendTwist bend = bentBy(120.0);
     const std::vector<glm::dvec3> before = posed(joint, bend);
-    const std::vector<glm::dvec3> after = SkinRelaxation(joint).relaxed(before, joint.turnsOf(bend));
+    const std::vector<glm::dvec3> after =
+        SkinRelaxation(joint).relaxed(before, joint.turnsOf(bend));
     double inside = 0.0, outside = 0.0;
     for (std::size_t v = 0; v < before.size(); ++v) {
         const glm::dvec3& from = joint.vertices[v].from;
