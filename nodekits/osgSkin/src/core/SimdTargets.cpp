@@ -86,7 +86,7 @@ ChosenTarget& GetChosenTarget() {
 }
 
 /// Of failed assertions, in debug builds.
-[[noreturn]] void Abort(const char* file, int line, const char* format, ...) {
+HWY_NORETURN void Abort(const char* file, int line, const char* format, ...) {
     std::fprintf(stderr, "osgSkin: %s:%d: ", file, line);
     std::va_list arguments;
     va_start(arguments, format);

@@ -181,7 +181,7 @@ bool Springs::Swing::fits(const osgAnimation::Skeleton& skeleton) const {
 void Springs::Swing::restore() {
     for (Group& group : _groups)
         for (SwungBone& each : group.bones) {
-            Bone& bone = *each.bone.get();
+            Bone& bone = *each.bone;
             const Bone* const parent = bone.getBoneParent();
             if (!each.hasSwung || bone.getMatrix() != each.swung || each.swung == each.base)
                 continue;
