@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Measures binding, which happens once per character: seconds by the number of vertices.
+// Measures binding, which happens once per character: time and the process's peak memory by the
+// number of vertices.
 #include "Subdivide.h"
 
 #include <osgSkinBind/Bind>
@@ -9,6 +10,7 @@
 #include <osgSkinRig/Motion>
 
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -51,6 +53,9 @@ void bindBody(benchmark::State& state, const Size& size) {
     state.counters["vertices"] = vertices;
     state.counters["vertices/s"] =
         benchmark::Counter(vertices, benchmark::Counter::kIsIterationInvariantRate);
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    state.counters["peak MB"] = static_cast<double>(use.ru_maxrss) / 1024.0; // of all sizes so far
 }
 
 } // namespace
@@ -64,7 +69,9 @@ int main(int argc, char** argv) {
     }
     for (const Size& size : kSizes)
         benchmark::RegisterBenchmark((std::string("bind/") + size.name).c_str(), bindBody, size)
-            ->Unit(benchmark::kMillisecond);
+            ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime()
+            ->UseRealTime();
     benchmark::RunSpecifiedBenchmarks();
     return 0;
 }

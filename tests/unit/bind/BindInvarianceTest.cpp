@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A bound and posed body is the same after moving, rotating, mirroring or scaling it, and for any
-// order of its joints.
+// order of its joints and any number of threads.
 #include "KnownBody.h"
+
+#include <osgSkin/Binding>
+#include <osgSkinBind/Bind>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -13,6 +16,10 @@
 #include <map>
 #include <string>
 #include <vector>
+
+#ifdef OSGSKIN_HAS_TBB
+#include <tbb/task_arena.h>
+#endif
 
 using namespace osgSkin;
 
@@ -122,3 +129,25 @@ TEST(BindInvariance, PoseDoesNotDependOnJointOrder) {
     split["LowerBack"] = glm::angleAxis(0.5, glm::normalize(glm::dvec3(1, 1, 1)));
     EXPECT_LT(worstDistance(body.posed(split), other.posed(split)), 1e-5 * heightOf(body));
 }
+
+#ifdef OSGSKIN_HAS_TBB
+TEST(BindInvariance, BindingDoesNotDependOnTheNumberOfThreads) {
+    const KnownBody body = KnownBody::thrower();
+    const auto boundBy = [&body](int threads) {
+        Binding binding;
+        tbb::task_arena(threads).execute([&] { binding = bind(body.mesh, body.truth); });
+        return binding;
+    };
+    const Binding one = boundBy(1), four = boundBy(4);
+    EXPECT_EQ(one.firstInfluence, four.firstInfluence);
+    EXPECT_EQ(one.correctives.shares, four.correctives.shares);
+    EXPECT_EQ(one.correctives.normalShares, four.correctives.normalShares);
+    ASSERT_EQ(one.influences.size(), four.influences.size());
+    ASSERT_EQ(one.gradients.size(), four.gradients.size());
+    for (std::size_t i = 0; i < one.influences.size(); ++i) {
+        EXPECT_EQ(one.influences[i].bend, four.influences[i].bend);
+        EXPECT_EQ(one.influences[i].twist, four.influences[i].twist);
+        EXPECT_EQ(one.gradients[i].bend, four.gradients[i].bend);
+    }
+}
+#endif

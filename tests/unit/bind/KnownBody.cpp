@@ -2,7 +2,7 @@
 #include "KnownBody.h"
 
 #include "SharedBody.h"
-#include "mesh/SurfaceQueries.h"
+#include "mesh/SurfaceTree.h"
 
 #include <osgSkin/Deform>
 #include <osgSkinBind/Bind>
@@ -101,9 +101,10 @@ FitErrors fitErrors(const RestSkeleton& fitted, const KnownBody& body, bool zUp)
         high = std::max(high, p[zUp ? 2 : 1]);
     }
     const WeldedMesh welded(body.mesh);
+    const WindingTree skin(welded.positions, welded.triangles);
     FitErrors errors;
     for (const RestJoint& joint : fitted.joints) {
-        if (isInsideSkin(welded, joint.centre)) ++errors.inside;
+        if (skin.inside(joint.centre)) ++errors.inside;
         const int known = body.truth.find(joint.name);
         if (known < 0) continue;
         ++errors.joints;

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -40,8 +39,7 @@ struct CellHash {
     }
 };
 
-/// Finds an earlier point within `tolerance` of a new one. Cells are as wide as the tolerance, so
-/// the 27 cells around a point hold all candidates.
+/// Finds an earlier point within `tolerance` of a new one.
 class PointFinder {
 public:
     PointFinder(const glm::dvec3& origin, double tolerance)
@@ -50,29 +48,33 @@ public:
     /// The index of a point of `points` near p. If there is none, adds p as points.size(), and
     /// returns that.
     std::uint32_t findOrAdd(const glm::dvec3& p, const std::vector<glm::dvec3>& points) {
-        const Cell at = cell(p);
-        for (std::int64_t dx = -1; dx <= 1; ++dx)
-            for (std::int64_t dy = -1; dy <= 1; ++dy)
-                for (std::int64_t dz = -1; dz <= 1; ++dz) {
-                    const auto found = _cells.find({at.x + dx, at.y + dy, at.z + dz});
-                    if (found != _cells.end() &&
-                        glm::distance(points[found->second], p) <= _tolerance)
-                        return found->second;
+        const glm::dvec3 reach(_tolerance);
+        const Cell low = cell(p - reach), high = cell(p + reach);
+        for (std::int64_t x = low.x; x <= high.x; ++x)
+            for (std::int64_t y = low.y; y <= high.y; ++y)
+                for (std::int64_t z = low.z; z <= high.z; ++z) {
+                    const auto [first, end] = _cells.equal_range({x, y, z});
+                    for (auto found = first; found != end; ++found)
+                        if (glm::distance(points[found->second], p) <= _tolerance)
+                            return found->second;
                 }
         const auto added = static_cast<std::uint32_t>(points.size());
-        _cells.emplace(at, added);
+        _cells.emplace(cell(p), added);
         return added;
     }
 
 private:
+    /// Cells are so much wider than the tolerance that few points are near others.
+    static constexpr double kWidth = 16.0;
+
     Cell cell(const glm::dvec3& p) const {
-        const glm::dvec3 q = (p - _origin) / _tolerance;
+        const glm::dvec3 q = (p - _origin) / (kWidth * _tolerance);
         return {std::llround(q.x), std::llround(q.y), std::llround(q.z)};
     }
 
     glm::dvec3 _origin;
     double _tolerance;
-    std::unordered_map<Cell, std::uint32_t, CellHash> _cells;
+    std::unordered_multimap<Cell, std::uint32_t, CellHash> _cells;
 };
 
 /// A triangle's side between two welded vertices, the lower one first.
@@ -248,16 +250,27 @@ void WeldedMesh::partClosedPieces(const SkinMesh& mesh) {
 }
 
 void WeldedMesh::addTriangles(const SkinMesh& mesh) {
-    std::set<std::array<std::uint32_t, 3>> known;
+    using Triangle = std::array<std::uint32_t, 3>;
     const std::vector<std::uint32_t> corners = mesh.triangles();
+    std::vector<std::pair<Triangle, std::uint32_t>> sorted; // corners in order, number
+    sorted.reserve(corners.size() / 3);
+    const auto triangleAt = [&](std::size_t i) {
+        return Triangle{weldedOf[corners[i]], weldedOf[corners[i + 1]], weldedOf[corners[i + 2]]};
+    };
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        const std::array<std::uint32_t, 3> triangle = {
-            weldedOf[corners[i]], weldedOf[corners[i + 1]], weldedOf[corners[i + 2]]};
-        std::array<std::uint32_t, 3> key = triangle;
+        Triangle key = triangleAt(i);
         std::sort(key.begin(), key.end());
         if (key[0] == key[1] || key[1] == key[2]) continue;
-        if (known.insert(key).second) triangles.push_back(triangle);
+        sorted.emplace_back(key, static_cast<std::uint32_t>(i / 3));
     }
+    std::sort(sorted.begin(), sorted.end());
+    const auto end = std::unique(sorted.begin(), sorted.end(),
+                                 [](const auto& a, const auto& b) { return a.first == b.first; });
+    std::sort(sorted.begin(), end,
+              [](const auto& a, const auto& b) { return a.second < b.second; });
+    triangles.reserve(std::size_t(end - sorted.begin()));
+    for (auto each = sorted.begin(); each != end; ++each)
+        triangles.push_back(triangleAt(3 * std::size_t(each->second)));
 }
 
 void WeldedMesh::connect() {

@@ -161,11 +161,8 @@ Binding RegionBinder::bind(const SkinMesh& mesh, const RestSkeleton& skeleton,
         bend = std::move(printed.bend);
         twist = std::move(printed.twist);
     } else {
-        bend = bendFields(binary, radii, options, [&](std::size_t joint) {
-            const double fraction = double(joint - 1) / double(joints.size() - 1);
-            tell("bend of " + skeleton.joints[joint].name,
-                 kBendsBegin + fraction * (kTwistsBegin - kBendsBegin));
-        });
+        bend = bendFields(binary, radii, options, skeleton,
+                          subProgress(ratiosProgress, kBendsBegin, kTwistsBegin));
         tell("twists", kTwistsBegin);
         twist = twistFields(skin, joints, radii, bend);
         layers.follow(bend, twist);

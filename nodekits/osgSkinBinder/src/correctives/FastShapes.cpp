@@ -5,6 +5,8 @@
 #include "correctives/ShapeFit.h"
 #include "correctives/ShapedJoint.h"
 #include "correctives/SkinRelaxation.h"
+#include "mesh/CoarseGraph.h"
+#include "mesh/Parallel.h"
 #include "regions/HermiteRatio.h"
 
 #include <glm/common.hpp>
@@ -18,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -282,9 +285,6 @@ private:
 
 using Points = std::vector<glm::dvec3>;
 
-/// Sections are widened until they have this share of their area at rest.
-constexpr double kAreaKept = 0.97;
-
 /// Widths that are tried, as shares of the distance from the bone.
 constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
 
@@ -350,39 +350,6 @@ double maxOutAt(double angle) {
 double widthAt(const JointSections::Values& shares, double radii) {
     return hermiteRatio(radii / kWidensFully) * JointSections::valueAt(shares, radii);
 }
-
-/// Finds the share by which each section of one bone is widened, from areas at growing shares.
-class WidthSearch {
-public:
-    WidthSearch(const JointSections::Values& atRest, const JointSections::Values& areas)
-        : _areas(areas) {
-        for (std::size_t k = 0; k < atRest.size(); ++k) {
-            _missing[k] = kAreaKept * atRest[k] - areas[k];
-            _found[k] = !(_missing[k] > 0.0);
-        }
-    }
-
-    /// \param areas of the sections if all are widened by `share`
-    void add(double share, const JointSections::Values& areas) {
-        for (std::size_t k = 0; k < areas.size(); ++k) {
-            if (_found[k]) continue;
-            const double gained = areas[k] - _areas[k];
-            const double part = gained > 0.0 ? std::min(1.0, _missing[k] / gained) : 1.0;
-            shares[k] = glm::mix(_last, share, part);
-            _found[k] = part < 1.0;
-            _missing[k] -= gained;
-            _areas[k] = areas[k];
-        }
-        _last = share;
-    }
-
-    JointSections::Values shares{};
-
-private:
-    JointSections::Values _areas, _missing{};
-    std::array<bool, JointSections::kCount> _found{};
-    double _last = 0.0;
-};
 
 Widening::Widening(const FoldShape& fold, const std::vector<RestPoint>& rest, const Points& points)
     : _points(points) {
@@ -589,10 +556,8 @@ void fadeSmallOffsets(double radius, JointShapes& shapes) {
     }
 }
 
-} // namespace
-
-FittedShapes fastShapesOf(const ShapedJoint& joint) {
-    JointShapes shapes = shapesOf(turnedWherePossible(joint));
+FittedShapes fittedShapesOf(const ShapedJoint& joint) {
+    JointShapes shapes = shapesOf(joint);
     const CorrectiveJoint::Basis basis = shapes.functions.basis;
     if (basis == CorrectiveJoint::Basis::TurnedHinge) fadeSmallOffsets(joint.radius, shapes);
     FittedShapes result = fitShapes(shapes, {modesOf(joint, basis), kFitTolerance * joint.radius});
@@ -600,13 +565,36 @@ FittedShapes fastShapesOf(const ShapedJoint& joint) {
     return result;
 }
 
+/// Shapes are computed on coarser copies of skin whose edges are shorter, in radii: the copies' are
+/// still shorter than any detail of a shape.
+constexpr double kFinestEdge = 0.08;
+
+FittedShapes shapesOfFine(const ShapedJoint& joint) {
+    std::vector<glm::dvec3> positions;
+    for (const ShapedJoint::Vertex& vertex : joint.vertices) positions.push_back(vertex.from);
+    const HeatGraph fine(std::move(positions), joint.triangles);
+    if (!(fine.meanEdge > 0.0) || fine.meanEdge > kFinestEdge * joint.radius)
+        return fittedShapesOf(joint);
+    const CoarseGraph coarser(fine);
+    return finerShapes(shapesOfFine(coarserJoint(joint, coarser)), coarser, joint);
+}
+
+} // namespace
+
+FittedShapes fastShapesOf(const ShapedJoint& joint) {
+    return shapesOfFine(turnedWherePossible(joint));
+}
+
 Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                            const WeldedMesh& mesh, const Binding& binding) {
-    std::vector<FittedShapes> all;
-    for (const ShapedJoint& joint : findShapedJoints(skeleton, joints, mesh, binding))
-        all.push_back(fastShapesOf(joint));
-    for (const ShapedJoint& joint : findSoftJoints(joints, mesh, binding))
-        all.push_back(fastShapesOf(joint));
+    std::vector<ShapedJoint> shaped = findShapedJoints(skeleton, joints, mesh, binding);
+    for (ShapedJoint& soft : findSoftJoints(joints, mesh, binding))
+        shaped.push_back(std::move(soft));
+    std::vector<FittedShapes> all(shaped.size());
+    parallelFor(shaped.size(), [&](std::size_t i) {
+        all[i] = fastShapesOf(shaped[i]);
+        shaped[i] = {}; // which is large
+    });
     return packShapes(all, mesh.weldedOf);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "correctives/JointSections.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,6 +16,9 @@ constexpr double kDepthFrom = 1.0, kDepthTo = 2.5;
 
 /// How far the child's share of the depth may exceed one half.
 constexpr double kMaxUneven = 0.08;
+
+/// Sections are widened until they have this share of their area at rest.
+constexpr double kAreaKept = 0.97;
 
 /// One bone with the skin of its side of the joint.
 struct Bone {
@@ -33,18 +37,17 @@ Bone boneAt(const glm::dvec3& along, const glm::dvec3& other, double share) {
     return {along, across / sine, std::tan(share * angle)};
 }
 
-/// Adds the triangle's part of each section's area: half the cross product of the edge in which the
+/// Adds a triangle's part of each section's area: half the cross product of the edge in which the
 /// triangle meets the section. Sections near the joint are open in the plane in which both sides
 /// meet; the origin lies in that plane, so that the missing edge would add nothing.
-void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, double step,
-                 JointSections::Values& areas) {
-    std::array<double, 3> z{};
-    for (std::size_t i = 0; i < 3; ++i) z[i] = glm::dot(corners[i], bone.along);
-    const auto [least, most] = std::minmax_element(z.begin(), z.end());
-    const double from = std::ceil(std::max(*least, 0.0) / step);
-    if (!(from < JointSections::kCount + 1)) return;
+/// \param z distance of each corner along the bone
+void addTriangle(const std::array<const glm::dvec3*, 3>& corners, const std::array<double, 3>& z,
+                 const Bone& bone, double step, JointSections::Values& areas) {
+    const double from = std::ceil(std::max(std::min({z[0], z[1], z[2]}), 0.0) / step);
+    const double most = std::max({z[0], z[1], z[2]});
+    if (!(from <= JointSections::kCount)) return;
     for (auto k = std::max<std::size_t>(1, static_cast<std::size_t>(from));
-         k <= JointSections::kCount && double(k) * step <= *most; ++k) {
+         k <= JointSections::kCount && double(k) * step <= most; ++k) {
         const double at = double(k) * step;
         const glm::dvec3 origin = at * (bone.along + bone.slope * bone.boundary);
         glm::dvec3 enter(0.0), leave(0.0);
@@ -52,7 +55,7 @@ void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, dou
             const std::size_t j = (i + 1) % 3;
             if ((z[i] < at) == (z[j] < at)) continue;
             const glm::dvec3 x =
-                corners[i] + (at - z[i]) / (z[j] - z[i]) * (corners[j] - corners[i]) - origin;
+                *corners[i] + (at - z[i]) / (z[j] - z[i]) * (*corners[j] - *corners[i]) - origin;
             (z[i] < at ? enter : leave) = x;
         }
         areas[k - 1] += 0.5 * glm::dot(bone.along, glm::cross(leave, enter));
@@ -62,10 +65,18 @@ void addTriangle(const std::array<glm::dvec3, 3>& corners, const Bone& bone, dou
 JointSections::Sides areasAcross(const ShapedJoint& joint, const std::vector<bool>& isChilds,
                                  const Bone& parent, const Bone& child,
                                  const std::vector<glm::dvec3>& points) {
+    const auto along = [&points](const Bone& bone) {
+        std::vector<double> z;
+        z.reserve(points.size());
+        for (const glm::dvec3& point : points) z.push_back(glm::dot(point, bone.along));
+        return z;
+    };
+    const std::vector<double> alongParent = along(parent), alongChild = along(child);
     JointSections::Sides areas;
     for (std::size_t t = 0; t < joint.triangles.size(); ++t) {
-        const auto& triangle = joint.triangles[t];
-        addTriangle({points[triangle[0]], points[triangle[1]], points[triangle[2]]},
+        const auto& [a, b, c] = joint.triangles[t];
+        const std::vector<double>& z = isChilds[t] ? alongChild : alongParent;
+        addTriangle({&points[a], &points[b], &points[c]}, {z[a], z[b], z[c]},
                     isChilds[t] ? child : parent, JointSections::kStep * joint.radius,
                     isChilds[t] ? areas.child : areas.parent);
     }
@@ -121,6 +132,27 @@ double JointSections::valueAt(const Values& values, double radii) {
     };
     return 0.5 * (0.5 - f) * (0.5 - f) * at(middle - 1) + (0.75 - f * f) * at(middle) +
            0.5 * (0.5 + f) * (0.5 + f) * at(middle + 1);
+}
+
+WidthSearch::WidthSearch(const JointSections::Values& atRest, const JointSections::Values& areas)
+    : _areas(areas) {
+    for (std::size_t k = 0; k < atRest.size(); ++k) {
+        _missing[k] = kAreaKept * atRest[k] - areas[k];
+        _found[k] = !(_missing[k] > 0.0);
+    }
+}
+
+void WidthSearch::add(double share, const JointSections::Values& areas) {
+    for (std::size_t k = 0; k < areas.size(); ++k) {
+        if (_found[k]) continue;
+        const double gained = areas[k] - _areas[k];
+        const double part = gained > 0.0 ? std::min(1.0, _missing[k] / gained) : 1.0;
+        shares[k] = glm::mix(_last, share, part);
+        _found[k] = part < 1.0;
+        _missing[k] -= gained;
+        _areas[k] = areas[k];
+    }
+    _last = share;
 }
 
 } // namespace osgSkin

@@ -51,6 +51,23 @@ private:
     double _childDepth = 0.5;
 };
 
+/// Finds the share by which each section of one bone is widened to keep its area, from areas at
+/// growing shares.
+class WidthSearch {
+public:
+    WidthSearch(const JointSections::Values& atRest, const JointSections::Values& areas);
+
+    /// \param areas of the sections if all are widened by `share`
+    void add(double share, const JointSections::Values& areas);
+
+    JointSections::Values shares{};
+
+private:
+    JointSections::Values _areas, _missing{};
+    std::array<bool, JointSections::kCount> _found{};
+    double _last = 0.0;
+};
+
 } // namespace osgSkin
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "correctives/AddShapes.h"
 
+#include "mesh/Parallel.h"
 #include "ratios/JointRatios.h"
 
 #include <osgSkin/BendTwist>
@@ -19,11 +20,11 @@ namespace osgSkin {
 namespace {
 
 /// Numbers of sampled bends of a joint: along its main axis and across, or around and outwards.
-constexpr int kAlong = 40;
+constexpr int kAlong = 20;
 constexpr int kAcross = 3;
 constexpr int kAcrossTurned = 5;
 constexpr int kAround = 12;
-constexpr int kOutwards = 12;
+constexpr int kOutwards = 6;
 /// The same for a joint that folds in any direction, as its shapes change faster.
 constexpr int kAroundRound = 12;
 constexpr int kOutwardsRound = 24;
@@ -278,74 +279,92 @@ Eigen::MatrixXd fitWithFewest(const Eigen::MatrixXd& weights, const NormalFit& f
     return modes;
 }
 
+/// Whether two correctives have the same joint, or the same input.
+bool areAlike(const CorrectiveJoint& a, const CorrectiveJoint& b) {
+    return a.joint == b.joint &&
+           (a.basis == CorrectiveJoint::Basis::Input) == (b.basis == CorrectiveJoint::Basis::Input);
+}
+
+/// Whether no corrective before this one is alike.
+bool isFirst(const Correctives& all, std::size_t j) {
+    return std::none_of(
+        all.joints.begin(), all.joints.begin() + std::ptrdiff_t(j),
+        [&](const CorrectiveJoint& other) { return areAlike(other, all.joints[j]); });
+}
+
+/// See addNormalCorrectives().
+/// \param shares of all joints; this one's are set
+/// \return the joint's normalScales
+std::vector<double> addNormals(const WeldedMesh& mesh, std::uint32_t j, Binding& binding,
+                               std::vector<std::int16_t>& shares) {
+    const Correctives& to = binding.correctives;
+    const CorrectiveJoint& joint = to.joints[j];
+    CorrectedSkin skin(mesh, binding, j);
+    const bool again = !isFirst(to, j); // the gradients' error is corrected only once
+    const std::vector<glm::dvec2> samples = normalSamples(joint);
+    // Splines follow a bend closely enough to make up for shorter gradients.
+    if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
+        skin.limitGradients(samples);
+    const auto rows = Eigen::Index(samples.size()), count = Eigen::Index(joint.modes);
+    Eigen::MatrixXd weights(rows, count);
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count, Eigen::Index(3 * skin.vertices().size()));
+    for (Eigen::Index s = 0; s < rows; ++s) {
+        Eigen::VectorXd beta(Eigen::Index(CorrectiveJoint::kMaxModes));
+        joint.weights(samples[std::size_t(s)], beta.data());
+        weights.row(s) = beta.head(count);
+        std::vector<glm::dvec3> wanted = skin.tilts(samples[std::size_t(s)]);
+        if (again) {
+            const std::vector<glm::dvec3> without = skin.tilts(samples[std::size_t(s)], false);
+            for (std::size_t v = 0; v < wanted.size(); ++v) wanted[v] -= without[v];
+        }
+        for (std::size_t v = 0; v < wanted.size(); ++v)
+            for (int axis = 0; axis < 3; ++axis)
+                sums.col(Eigen::Index(3 * v) + axis) += wanted[v][axis] * beta.head(count);
+    }
+    const Eigen::MatrixXd modes =
+        fitWithFewest(weights, {weights.transpose() * weights, std::move(sums)});
+    std::vector<double> scale;
+    for (std::size_t k = 0; k < joint.modes; ++k) {
+        const double most =
+            modes.cols() > 0 ? modes.row(Eigen::Index(k)).cwiseAbs().maxCoeff() : 0.0;
+        scale.push_back(most > 0.0 ? most : 1.0);
+        for (std::size_t v = 0; v < skin.vertices().size(); ++v)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                shares[skin.vertices()[v].firstShare + 3 * k + axis] = static_cast<std::int16_t>(
+                    std::lrint(Correctives::kUnit *
+                               modes(Eigen::Index(k), Eigen::Index(3 * v + axis)) / scale[k]));
+    }
+    // Copies of a vertex have entries of their own.
+    std::vector<const CorrectedSkin::Vertex*> made(mesh.vertexCount(), nullptr);
+    for (const CorrectedSkin::Vertex& vertex : skin.vertices()) made[vertex.welded] = &vertex;
+    for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) {
+        const CorrectedSkin::Vertex* from = made[mesh.weldedOf[v]];
+        if (!from) continue;
+        for (std::uint32_t i = to.firstEntry[v]; i < to.firstEntry[v + 1]; ++i)
+            if (to.entries[i].joint == j)
+                std::copy_n(shares.begin() + std::ptrdiff_t(from->firstShare), to.sharesOf(j),
+                            shares.begin() + std::ptrdiff_t(to.entries[i].firstShare));
+        if (joint.basis == CorrectiveJoint::Basis::Input) continue;
+        for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
+            if (binding.influences[i].joint == joint.joint)
+                binding.gradients[i].bend = from->gradient.bend;
+    }
+    return scale;
+}
+
 } // namespace
 
 void addNormalCorrectives(const WeldedMesh& mesh, Binding& binding) {
     Correctives& to = binding.correctives;
     std::vector<std::int16_t> shares(to.shares.size(), 0);
-    std::vector<std::vector<double>> scales;
-    for (std::uint32_t j = 0; j < to.joints.size(); ++j) {
-        const CorrectiveJoint& joint = to.joints[j];
-        CorrectedSkin skin(mesh, binding, j);
-        // The gradients' error is corrected only once for each joint.
-        const bool again = std::any_of(
-            to.joints.begin(), to.joints.begin() + j, [&joint](const CorrectiveJoint& other) {
-                return other.joint == joint.joint &&
-                       (other.basis == CorrectiveJoint::Basis::Input) ==
-                           (joint.basis == CorrectiveJoint::Basis::Input);
-            });
-        const std::vector<glm::dvec2> samples = normalSamples(joint);
-        // Splines follow a bend closely enough to make up for shorter gradients.
-        if (isHinge(joint) || joint.basis == CorrectiveJoint::Basis::Round)
-            skin.limitGradients(samples);
-        const auto rows = Eigen::Index(samples.size()), count = Eigen::Index(joint.modes);
-        Eigen::MatrixXd weights(rows, count);
-        Eigen::MatrixXd sums =
-            Eigen::MatrixXd::Zero(count, Eigen::Index(3 * skin.vertices().size()));
-        for (Eigen::Index s = 0; s < rows; ++s) {
-            Eigen::VectorXd beta(Eigen::Index(CorrectiveJoint::kMaxModes));
-            joint.weights(samples[std::size_t(s)], beta.data());
-            weights.row(s) = beta.head(count);
-            std::vector<glm::dvec3> wanted = skin.tilts(samples[std::size_t(s)]);
-            if (again) {
-                const std::vector<glm::dvec3> without = skin.tilts(samples[std::size_t(s)], false);
-                for (std::size_t v = 0; v < wanted.size(); ++v) wanted[v] -= without[v];
-            }
-            for (std::size_t v = 0; v < wanted.size(); ++v)
-                for (int axis = 0; axis < 3; ++axis)
-                    sums.col(Eigen::Index(3 * v) + axis) += wanted[v][axis] * beta.head(count);
-        }
-        const Eigen::MatrixXd modes =
-            fitWithFewest(weights, {weights.transpose() * weights, std::move(sums)});
-        std::vector<double>& scale = scales.emplace_back();
-        for (std::size_t k = 0; k < joint.modes; ++k) {
-            const double most =
-                modes.cols() > 0 ? modes.row(Eigen::Index(k)).cwiseAbs().maxCoeff() : 0.0;
-            scale.push_back(most > 0.0 ? most : 1.0);
-            for (std::size_t v = 0; v < skin.vertices().size(); ++v)
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                    shares[skin.vertices()[v].firstShare + 3 * k + axis] =
-                        static_cast<std::int16_t>(std::lrint(
-                            Correctives::kUnit *
-                            modes(Eigen::Index(k), Eigen::Index(3 * v + axis)) / scale[k]));
-        }
-        // Copies of a vertex have entries of their own.
-        std::vector<const CorrectedSkin::Vertex*> made(mesh.vertexCount(), nullptr);
-        for (const CorrectedSkin::Vertex& vertex : skin.vertices()) made[vertex.welded] = &vertex;
-        for (std::uint32_t v = 0; v < mesh.weldedOf.size(); ++v) {
-            const CorrectedSkin::Vertex* from = made[mesh.weldedOf[v]];
-            if (!from) continue;
-            for (std::uint32_t i = to.firstEntry[v]; i < to.firstEntry[v + 1]; ++i)
-                if (to.entries[i].joint == j)
-                    std::copy_n(shares.begin() + std::ptrdiff_t(from->firstShare), to.sharesOf(j),
-                                shares.begin() + std::ptrdiff_t(to.entries[i].firstShare));
-            if (joint.basis == CorrectiveJoint::Basis::Input) continue;
-            for (std::uint32_t i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1];
-                 ++i)
-                if (binding.influences[i].joint == joint.joint)
-                    binding.gradients[i].bend = from->gradient.bend;
-        }
-    }
+    std::vector<std::vector<double>> scales(to.joints.size());
+    // Correctives of one joint follow each other, as they change the same gradients.
+    parallelFor(to.joints.size(), [&](std::size_t first) {
+        if (!isFirst(to, first)) return;
+        for (std::size_t j = first; j < to.joints.size(); ++j)
+            if (areAlike(to.joints[j], to.joints[first]))
+                scales[j] = addNormals(mesh, static_cast<std::uint32_t>(j), binding, shares);
+    });
     for (std::size_t j = 0; j < to.joints.size(); ++j) to.joints[j].normalScales = scales[j];
     to.normalShares = std::move(shares);
 }

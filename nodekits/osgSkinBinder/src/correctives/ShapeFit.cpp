@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "correctives/ShapeFit.h"
 
+#include "correctives/ShapedJoint.h"
+#include "mesh/CoarseGraph.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgSkin {
 namespace {
 
 constexpr double kFitRidge = 1e-3;
+
+/// The number of vertices whose equations are made together.
+constexpr Eigen::Index kTogether = 64;
 
 /// Squares of singular values below this share of the largest are rounding errors.
 constexpr double kRounding = 1e-13;
@@ -54,20 +61,25 @@ Eigen::MatrixXd solve(const JointShapes& shapes, const Eigen::MatrixXd& phi,
     if (shapes.weights.empty())
         return damped(phi.transpose() * phi).ldlt().solve(phi.transpose() * offsets);
     const Eigen::Index count = phi.cols();
-    Eigen::MatrixXd products(phi.rows(), count * count);
-    for (Eigen::Index i = 0; i < count; ++i)
-        products.middleCols(i * count, count) = phi.col(i).asDiagonal() * phi;
+    Eigen::MatrixXd products(phi.rows(), count * (count + 1) / 2); // of two functions each
+    for (Eigen::Index i = 0, column = 0; i < count; column += count - i++)
+        products.middleCols(column, count - i) = phi.col(i).asDiagonal() * phi.rightCols(count - i);
     Eigen::MatrixXd weights(phi.rows(), offsets.cols() / 3), weighted = offsets;
     for (Eigen::Index s = 0; s < phi.rows(); ++s)
         weights.row(s) = Eigen::Map<const Eigen::RowVectorXd>(shapes.weights[std::size_t(s)].data(),
                                                               weights.cols());
     for (Eigen::Index column = 0; column < offsets.cols(); ++column)
         weighted.col(column).array() *= weights.col(column / 3).array();
-    const Eigen::MatrixXd normals = products.transpose() * weights;
     Eigen::MatrixXd fit = phi.transpose() * weighted;
-    Eigen::LLT<Eigen::MatrixXd> solver(count);
+    Eigen::LLT<Eigen::MatrixXd> solver(count); // reads the lower triangle
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count), normals;
     for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-        solver.compute(damped(normals.col(v).reshaped(count, count)));
+        if (v % kTogether == 0)
+            normals = products.transpose() *
+                      weights.middleCols(v, std::min(kTogether, weights.cols() - v));
+        for (Eigen::Index i = 0, row = 0; i < count; row += count - i++)
+            normal.col(i).tail(count - i) = normals.col(v % kTogether).segment(row, count - i);
+        solver.compute(damped(normal));
         solver.solveInPlace(fit.middleCols<3>(3 * v));
     }
     return fit;
@@ -205,6 +217,26 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
                     vectors[k][Eigen::Index(3 * v) + axis];
     result.residual = rootMeanSquare(residual, offsets.size());
     return result;
+}
+
+FittedShapes finerShapes(FittedShapes shapes, const CoarseGraph& coarser,
+                         const ShapedJoint& joint) {
+    const std::size_t modes = shapes.functions.modes;
+    std::vector<glm::dvec3> vectors(modes * joint.vertices.size());
+    std::vector<double> field(shapes.vertices.size());
+    for (std::size_t k = 0; k < modes; ++k)
+        for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t v = 0; v < field.size(); ++v)
+                field[v] = shapes.vectors[v * modes + k][axis];
+            const std::vector<double> fine = coarser.interpolated(field);
+            for (std::size_t v = 0; v < fine.size(); ++v)
+                if (joint.vertices[v].fade > 0.0) vectors[v * modes + k][axis] = fine[v];
+        }
+    shapes.vectors = std::move(vectors);
+    shapes.vertices.clear();
+    for (const ShapedJoint::Vertex& vertex : joint.vertices)
+        shapes.vertices.push_back(vertex.index);
+    return shapes;
 }
 
 Correctives packShapes(const std::vector<FittedShapes>& joints,

@@ -10,6 +10,9 @@
 
 namespace osgSkin {
 
+class CoarseGraph;
+struct ShapedJoint;
+
 /// Wanted offsets of rest vertices at samples of one joint's bends: what fitShapes() fits.
 struct JointShapes {
     CorrectiveJoint functions;           ///< all but modes and coefficients
@@ -44,6 +47,11 @@ struct ModeLimits {
 /// Fits by damped least squares and keeps the modes that matter most (singular value decomposition;
 /// EigenSkin, Kry et al. 2002).
 FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits);
+
+/// The shapes of a coarser copy of a joint's skin, interpolated over the joint's own vertices; 0
+/// where they do not move.
+/// \param shapes of coarserJoint()
+FittedShapes finerShapes(FittedShapes shapes, const CoarseGraph& coarser, const ShapedJoint& joint);
 
 /// Packs the joints' shapes into a binding's correctives. Drops joints without modes, and vertices
 /// that no bend moves by more than the shapes' tolerance. A vertex' last modes are 0 if together

@@ -2,6 +2,8 @@
 #include "correctives/ShapedJoint.h"
 
 #include "joints/BodyAxes.h"
+#include "mesh/CoarseGraph.h"
+#include "mesh/Parallel.h"
 #include "ratios/JointRatios.h"
 #include "regions/HermiteRatio.h"
 
@@ -125,6 +127,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
     const auto add = [&](std::uint32_t v, bool withinReach) {
         const glm::dvec3 from = mesh.positions[v] - shaped.centre;
         const double r = glm::length(from) / shaped.radius;
+        if (withinReach && r >= reach.end) return;
         const Influence own = ratios.of(v, shaped.functions.joint);
         const double limb = limbOf(v, own);
         // Nothing may separate the skin from a rigid part that it meets.
@@ -164,6 +167,7 @@ constexpr double kNotClamped = 0.9;
 constexpr double kRoundKnotStep = 20.0;
 constexpr double kSampleStep = 15.0;
 constexpr double kRoundSampleStep = 10.0;
+constexpr double kBallSampleStep = 15.0;
 constexpr int kDirections = 12;
 
 /// How the skin of people's joints moves, fitted to captured people (README.md, "Like captured
@@ -378,8 +382,12 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         }
         result.push_back(std::move(shaped));
     }
-    for (ShapedJoint& shaped : result) {
-        const bool beside = shaped.isAtTrunk() && isBesideLimb(result, shaped);
+    std::vector<bool> isBeside;
+    for (const ShapedJoint& shaped : result)
+        isBeside.push_back(shaped.isAtTrunk() && isBesideLimb(result, shaped));
+    parallelFor(result.size(), [&](std::size_t i) {
+        ShapedJoint& shaped = result[i];
+        const bool beside = isBeside[i];
         const ShapeReach& reach = !shaped.isAtTrunk() ? scope.betweenLimbs
                                   : beside            ? scope.besideLimb
                                                       : scope.atTrunk;
@@ -388,7 +396,7 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         Armpit pit{reach};
         if (shaped.isAtTrunk() && !beside) pit = pitOf(joints[0].centre, shaped, scope.inPit);
         addSkin(mesh, joints, ratios, scope.trunkToo, insideOut, reach, pit, shaped);
-    }
+    });
     result.erase(std::remove_if(result.begin(), result.end(),
                                 [](const ShapedJoint& shaped) {
                                     return shaped.vertices.size() < kMinVertices;
@@ -432,6 +440,24 @@ std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
         }
         if (shaped.vertices.size() >= kMinVertices) result.push_back(std::move(shaped));
     }
+    return result;
+}
+
+ShapedJoint coarserJoint(const ShapedJoint& joint, const CoarseGraph& coarser) {
+    ShapedJoint result = joint;
+    result.vertices.clear();
+    result.triangles = coarser.graph().triangles;
+    const auto restricted = [&](double ShapedJoint::Vertex::*member) {
+        std::vector<double> field;
+        for (const ShapedJoint::Vertex& vertex : joint.vertices) field.push_back(vertex.*member);
+        return coarser.restricted(field);
+    };
+    using Vertex = ShapedJoint::Vertex;
+    const std::vector<double> bend = restricted(&Vertex::bend), twist = restricted(&Vertex::twist),
+                              limb = restricted(&Vertex::limb), fade = restricted(&Vertex::fade);
+    for (std::uint32_t v = 0; v < bend.size(); ++v)
+        result.vertices.push_back(
+            {v, coarser.graph().positions[v], bend[v], twist[v], limb[v], fade[v], fade[v]});
     return result;
 }
 
@@ -493,7 +519,9 @@ std::vector<glm::dvec2> bendSamples(const ShapedJoint& joint) {
             }
         return samples;
     }
-    for (const double angle : steps(0.0, degreesOf(functions.high.x), kRoundSampleStep))
+    const double step =
+        functions.basis == CorrectiveJoint::Basis::Ball ? kBallSampleStep : kRoundSampleStep;
+    for (const double angle : steps(0.0, degreesOf(functions.high.x), step))
         for (int i = 0; angle > 0.0 && i < kDirections; ++i) {
             const double direction = 2.0 * glm::pi<double>() * i / kDirections;
             samples.push_back(sineOfHalf(angle) *

@@ -19,6 +19,8 @@
 
 namespace osgSkin {
 
+class CoarseGraph;
+
 /// How far from a joint its skin is shaped, in radii of the limb.
 struct ShapeReach {
     double whole; ///< nearer skin is moved wholly to its target
@@ -132,6 +134,9 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
 /// \param binding of the mesh before welding
 std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
                                         const WeldedMesh& mesh, const Binding& binding);
+
+/// The joint on a coarser copy of its skin, with an index in the copy for each vertex.
+ShapedJoint coarserJoint(const ShapedJoint& joint, const CoarseGraph& coarser);
 
 /// Sets basis, axis, range and knots of a joint's functions.
 /// \param mainAxis of findMainAxis(); a joint without one bends in any direction

@@ -3,9 +3,9 @@
 #define OSGSKINBINDER_ELASTIC_JOINTSOLID_H
 
 #include "elastic/Minimise.h"
-#include "elastic/Parallel.h"
 #include "elastic/SolveElastic.h"
 #include "elastic/solid/RestSkin.h"
+#include "mesh/Parallel.h"
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,8 @@
 #include "elastic/SolveElastic.h"
 
 #include "elastic/JointSolid.h"
-#include "elastic/Parallel.h"
 #include "elastic/solid/RestSkin.h"
+#include "mesh/Parallel.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -309,10 +309,10 @@ std::vector<ElasticShapes> solveElasticJoints(const ElasticSkin& skin,
         toSolve.push_back(i);
         whole += joints[i].samples.size();
     }
-    elastic::SharedProgress shared(whole);
+    SharedProgress shared(whole);
     std::vector<ElasticShapes> shapes(joints.size());
     shared.tellWhile(progress, [&] {
-        elastic::parallelFor(toSolve.size(), [&](std::size_t i) {
+        parallelFor(toSolve.size(), [&](std::size_t i) {
             shapes[toSolve[i]] = elastic::solveJoint(skin, joints[toSolve[i]], shared);
         });
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joints/JointRegions.h"
-#include "mesh/SurfaceQueries.h"
+#include "mesh/SurfaceTree.h"
 
 #include <glm/geometric.hpp>
 
@@ -65,8 +65,9 @@ void thin(double distance, std::vector<std::vector<glm::dvec3>>& samples) {
 
 class BoneSampler {
 public:
-    BoneSampler(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles)
-        : _skeleton(skeleton), _mesh(mesh), _roles(roles), _spacing(kSpacing * extentOf(mesh)) {}
+    BoneSampler(const RestSkeleton& skeleton, const WeldedMesh& mesh, const WindingTree& skin,
+                const JointRoles& roles)
+        : _skeleton(skeleton), _skin(skin), _roles(roles), _spacing(kSpacing * extentOf(mesh)) {}
 
     /// For each joint, the samples along its bones that are inside the skin. None for controls and
     /// bones that run outside.
@@ -98,8 +99,6 @@ public:
     }
 
 private:
-    bool isInside(const glm::dvec3& point) const { return isInsideSkin(_mesh, point); }
-
     std::vector<glm::dvec3> along(const glm::dvec3& from, const glm::dvec3& to) const {
         const double length = glm::distance(from, to);
         const int count = std::max(kMinSamples, static_cast<int>(std::ceil(length / _spacing)));
@@ -130,7 +129,7 @@ private:
 
     double share(const std::vector<glm::dvec3>& points) const {
         const auto inside = std::count_if(points.begin(), points.end(),
-                                          [this](const glm::dvec3& p) { return isInside(p); });
+                                          [this](const glm::dvec3& p) { return _skin.inside(p); });
         return static_cast<double>(inside) / static_cast<double>(points.size());
     }
 
@@ -149,7 +148,7 @@ private:
 
         std::vector<glm::dvec3> inside;
         for (const glm::dvec3& point : bones)
-            if (isInside(point)) inside.push_back(point);
+            if (_skin.inside(point)) inside.push_back(point);
         if (isEnd) append(beyondLast(joint), inside);
         if (!joint.isInside() &&
             static_cast<double>(inside.size()) < kInside * static_cast<double>(bones.size()))
@@ -168,7 +167,7 @@ private:
             step > 0.0 ? static_cast<int>(std::min(kMaxExtension * length / step, kMaxSteps)) : 0;
         for (int i = 0; i <= count; ++i) {
             const glm::dvec3 point = joint.boneEnd + i * step * direction;
-            if (!isInside(point)) break;
+            if (!_skin.inside(point)) break;
             result.push_back(point);
         }
         return result;
@@ -179,7 +178,7 @@ private:
     }
 
     const RestSkeleton& _skeleton;
-    const WeldedMesh& _mesh;
+    const WindingTree& _skin;
     const JointRoles& _roles;
     const double _spacing;
 };
@@ -203,16 +202,17 @@ int ownerOf(const std::vector<PlannedJoint>& joints, std::size_t joint, double t
 void setSamples(const RestSkeleton& skeleton, const WeldedMesh& mesh, const JointRoles& roles,
                 BindOptions::Method method, std::vector<PlannedJoint>& joints,
                 std::vector<std::string>& notes) {
+    const WindingTree skin(mesh.positions, mesh.triangles);
     for (std::size_t j = 0; j < joints.size(); ++j) {
         PlannedJoint& joint = joints[j];
         if (!joint.holdsRegion()) continue;
-        joint.inside = isInsideSkin(mesh, joint.centre);
+        joint.inside = skin.inside(joint.centre);
         if (method == BindOptions::Method::Paper && joint.isInside())
             joint.samples = {joint.centre};
     }
     if (method != BindOptions::Method::Paper) {
         const std::vector<std::vector<glm::dvec3>> samples =
-            BoneSampler(skeleton, mesh, roles).sample(joints);
+            BoneSampler(skeleton, mesh, skin, roles).sample(joints);
         for (std::size_t j = 0; j < joints.size(); ++j) {
             const int owner = ownerOf(joints, j, kCentreTolerance * mesh.size);
             if (owner < 0) continue;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -22,12 +23,12 @@ double cotangent(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) 
     return twiceArea > 0.0 ? glm::dot(b - a, c - a) / twiceArea : 0.0;
 }
 
-std::vector<double> lumpedMass(const WeldedMesh& mesh) {
-    std::vector<double> mass(mesh.vertexCount(), 0.0);
-    for (const auto& t : mesh.triangles) {
-        const glm::dvec3& a = mesh.positions[t[0]];
-        const double area =
-            0.5 * glm::length(glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
+std::vector<double> lumpedMass(const std::vector<glm::dvec3>& positions,
+                               const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    std::vector<double> mass(positions.size(), 0.0);
+    for (const auto& t : triangles) {
+        const glm::dvec3& a = positions[t[0]];
+        const double area = 0.5 * glm::length(glm::cross(positions[t[1]] - a, positions[t[2]] - a));
         for (const std::uint32_t v : t) mass[v] += area / 3.0;
     }
     // Vertices without a triangle, or with degenerate ones only, need some mass, too.
@@ -75,8 +76,18 @@ double creaseFactor(const WeldedMesh& mesh, std::uint32_t from, std::uint32_t to
 }
 
 HeatGraph::HeatGraph(const WeldedMesh& mesh)
-    : positions(mesh.positions), triangles(mesh.triangles), mass(lumpedMass(mesh)),
-      firstNeighbour(mesh.firstNeighbour), neighbours(mesh.neighbours), weights(edgeWeights(mesh)) {
+    : positions(mesh.positions), triangles(mesh.triangles),
+      mass(lumpedMass(mesh.positions, mesh.triangles)), firstNeighbour(mesh.firstNeighbour),
+      neighbours(mesh.neighbours), weights(edgeWeights(mesh)) {
+    measureEdges();
+}
+
+HeatGraph::HeatGraph(std::vector<glm::dvec3> points,
+                     std::vector<std::array<std::uint32_t, 3>> faces)
+    : positions(std::move(points)), triangles(std::move(faces)),
+      mass(lumpedMass(positions, triangles)) {
+    listNeighbours(positions.size(), edgesOf(triangles), firstNeighbour, neighbours);
+    weights = edgeWeights(positions, triangles, firstNeighbour, neighbours);
     measureEdges();
 }
 

@@ -36,6 +36,9 @@ struct HeatGraph {
 
     HeatGraph() = default;
     explicit HeatGraph(const WeldedMesh& mesh);
+    /// \param points become `positions`
+    /// \param faces become `triangles`
+    HeatGraph(std::vector<glm::dvec3> points, std::vector<std::array<std::uint32_t, 3>> faces);
 
     std::size_t vertexCount() const { return positions.size(); }
     IndexRange neighboursOf(std::uint32_t v) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/SkinSmoother.h"
 
+#include "mesh/CoarseGraph.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -8,36 +10,6 @@
 
 namespace osgSkin {
 namespace {
-
-constexpr std::uint32_t kNoGroup = 0xffffffffu;
-
-/// Edges longer than this many times the mean do not join vertices to a group.
-constexpr double kLongest = 2.0;
-
-/// Relaxation factor of Jacobi's method.
-constexpr double kRelaxation = 2.0 / 3.0;
-
-/// Jacobi steps after interpolation. Each leaves about a tenth of the groups' outlines visible.
-constexpr int kRounding = 3;
-
-template <typename Element>
-void sortUnique(std::vector<Element>& elements) {
-    std::sort(elements.begin(), elements.end());
-    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-}
-
-std::vector<double> relaxed(const HeatGraph& graph, const std::vector<double>& field) {
-    std::vector<double> result(field.size());
-    for (std::uint32_t v = 0; v < field.size(); ++v) {
-        double sum = 0.0, weights = 0.0;
-        for (std::uint32_t i = graph.firstNeighbour[v]; i < graph.firstNeighbour[v + 1]; ++i) {
-            sum += graph.weights[i] * (field[graph.neighbours[i]] - field[v]);
-            weights += graph.weights[i];
-        }
-        result[v] = weights > 0.0 ? field[v] + kRelaxation * sum / weights : field[v];
-    }
-    return result;
-}
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
@@ -83,7 +55,7 @@ std::vector<std::uint32_t> whereItChanges(const HeatGraph& skin, const std::vect
             front.emplace(length[next], next);
         }
     }
-    sortUnique(reached);
+    std::sort(reached.begin(), reached.end());
     return reached;
 }
 
@@ -130,111 +102,6 @@ void spread(const HeatGraph& skin, std::vector<double>& field, const std::vector
 }
 
 } // namespace
-
-/// The same skin with about a seventh of the vertices, for fields much wider than its edges.
-///
-/// Each group of fine vertices, a vertex and its neighbours, becomes one coarse vertex at their
-/// centroid. Three groups that meet in a triangle give a coarse triangle. Edges longer than twice
-/// the mean do not join a group, so sparse skin stays as it is.
-class CoarseGraph {
-public:
-    /// \param fine must outlive this
-    explicit CoarseGraph(const HeatGraph& fine);
-
-    const HeatGraph& graph() const { return _graph; }
-
-    /// A field on the fine skin, averaged over each group.
-    std::vector<double> restricted(const std::vector<double>& field) const;
-    /// A field on the coarse skin, interpolated; constant if the coarse one is.
-    std::vector<double> interpolated(const std::vector<double>& field) const;
-
-private:
-    void makeGroups();
-    void connectGroups();
-
-    const HeatGraph& _fine;
-    HeatGraph _graph;
-    std::vector<std::uint32_t> _groupOf; ///< coarse vertex of each fine one
-};
-
-CoarseGraph::CoarseGraph(const HeatGraph& fine) : _fine(fine) {
-    makeGroups();
-    connectGroups();
-}
-
-void CoarseGraph::makeGroups() {
-    const double longest = kLongest * _fine.meanEdge;
-    _groupOf.assign(_fine.vertexCount(), kNoGroup);
-    std::uint32_t groups = 0;
-    const auto near = [&](std::uint32_t v, auto&& visit) {
-        for (const std::uint32_t next : _fine.neighboursOf(v))
-            if (_fine.edgeLength(v, next) <= longest) visit(next);
-    };
-    // First, a vertex whose neighbours are all free founds a group with them, ...
-    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v) {
-        bool free = _groupOf[v] == kNoGroup;
-        near(v, [&](std::uint32_t u) { free = free && _groupOf[u] == kNoGroup; });
-        if (!free) continue;
-        _groupOf[v] = groups;
-        near(v, [&](std::uint32_t u) { _groupOf[u] = groups; });
-        ++groups;
-    }
-    // ... then the remaining vertices join an adjacent group.
-    const std::vector<std::uint32_t> founded = _groupOf;
-    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v)
-        if (founded[v] == kNoGroup) {
-            double shortest = 0.0;
-            near(v, [&](std::uint32_t u) {
-                const double length = _fine.edgeLength(v, u);
-                if (founded[u] == kNoGroup || (_groupOf[v] != kNoGroup && length >= shortest))
-                    return;
-                shortest = length;
-                _groupOf[v] = founded[u];
-            });
-        }
-    _graph.positions.assign(groups, glm::dvec3(0.0));
-    _graph.mass.assign(groups, 0.0);
-    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v) {
-        _graph.positions[_groupOf[v]] += _fine.mass[v] * _fine.positions[v];
-        _graph.mass[_groupOf[v]] += _fine.mass[v];
-    }
-    for (std::size_t g = 0; g < _graph.vertexCount(); ++g) _graph.positions[g] /= _graph.mass[g];
-}
-
-void CoarseGraph::connectGroups() {
-    for (const auto& t : _fine.triangles) {
-        std::array<std::uint32_t, 3> corners = {_groupOf[t[0]], _groupOf[t[1]], _groupOf[t[2]]};
-        std::sort(corners.begin(), corners.end());
-        if (corners[0] != corners[1] && corners[1] != corners[2])
-            _graph.triangles.push_back(corners);
-    }
-    sortUnique(_graph.triangles);
-
-    std::vector<DirectedEdge> edges; // in both directions
-    for (std::uint32_t v = 0; v < _fine.vertexCount(); ++v)
-        for (const std::uint32_t next : _fine.neighboursOf(v))
-            if (_groupOf[v] != _groupOf[next]) edges.emplace_back(_groupOf[v], _groupOf[next]);
-    sortUnique(edges);
-    listNeighbours(_graph.vertexCount(), edges, _graph.firstNeighbour, _graph.neighbours);
-    _graph.weights =
-        edgeWeights(_graph.positions, _graph.triangles, _graph.firstNeighbour, _graph.neighbours);
-    _graph.measureEdges();
-}
-
-std::vector<double> CoarseGraph::restricted(const std::vector<double>& field) const {
-    std::vector<double> result(_graph.vertexCount(), 0.0);
-    for (std::uint32_t v = 0; v < field.size(); ++v)
-        result[_groupOf[v]] += _fine.mass[v] * field[v];
-    for (std::size_t g = 0; g < result.size(); ++g) result[g] /= _graph.mass[g];
-    return result;
-}
-
-std::vector<double> CoarseGraph::interpolated(const std::vector<double>& field) const {
-    std::vector<double> result(_fine.vertexCount());
-    for (std::uint32_t v = 0; v < result.size(); ++v) result[v] = field[_groupOf[v]];
-    for (int i = 0; i < kRounding; ++i) result = relaxed(_fine, result);
-    return result;
-}
 
 SkinSmoother::SkinSmoother(const WeldedMesh& mesh, double widest) : _skin(mesh) {
     const HeatGraph* finest = &_skin;

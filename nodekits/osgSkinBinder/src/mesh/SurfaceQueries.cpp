@@ -29,14 +29,6 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const WeldedMesh& mesh, st
 
 } // namespace
 
-bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point) {
-    const std::vector<AngleSum::Corner> seen = seenFrom(point, mesh);
-    AngleSum halves;
-    for (const auto& t : mesh.triangles)
-        halves.addHalfSolidAngle(seen[t[0]], seen[t[1]], seen[t[2]]);
-    return std::abs(halves.value()) > kHalfAround;
-}
-
 std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point,
                                         bool onlyClosed) {
     const std::vector<AngleSum::Corner> seen = seenFrom(point, mesh);

@@ -12,10 +12,6 @@
 
 namespace osgSkin {
 
-/// True if the generalised winding number (Jacobson, Kavan & Sorkine-Hornung 2013) of the skin
-/// about the point is above one half. The mesh may have holes, and either winding.
-bool isInsideSkin(const WeldedMesh& mesh, const glm::dvec3& point);
-
 /// The shells that contain a point: by their own winding numbers, only closed ones or also those
 /// with holes.
 std::vector<std::uint32_t> shellsAround(const WeldedMesh& mesh, const glm::dvec3& point,

@@ -2,6 +2,7 @@
 #include "ratios/RatioFields.h"
 
 #include "joints/BodyAxes.h"
+#include "mesh/Parallel.h"
 #include "mesh/SkinSmoother.h"
 #include "ratios/MinimizeStretch.h"
 #include "regions/HermiteRatio.h"
@@ -462,24 +463,38 @@ std::vector<double> gradientFactor(const WeldedMesh& mesh, const std::vector<dou
 }
 
 JointFields bendFields(const BinaryField& binary, const std::vector<double>& radii,
-                       const BindOptions& options, const std::function<void(std::size_t)>& begin) {
+                       const BindOptions& options, const RestSkeleton& skeleton,
+                       const Progress& progress) {
     const std::vector<PlannedJoint>& joints = binary.joints;
     const double widest = options.smoothing * *std::max_element(radii.begin(), radii.end());
     const SkinSmoother smoother(binary.mesh, widest);
+    std::vector<std::size_t> bent;
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        if (joints[j].holdsRegion()) bent.push_back(j);
     JointFields fields(joints.size(), binary.mesh.vertexCount());
     fields.set(0, std::vector<double>(binary.mesh.vertexCount(), 1.0));
-    for (std::size_t j = 1; j < joints.size(); ++j) {
-        if (!joints[j].holdsRegion()) continue;
-        begin(j);
-        std::vector<double> field =
-            hasBoundaries(joints[j])
-                ? boundedField(binary, smoother, j, radii[j], options.smoothing)
-                : smoothBend(binary, smoother, j, radii, options);
-        if (joints[j].isDigit() && joints[regionAbove(joints, j)].isExtremity()) {
-            // A finger moves no skin that its hand does not move.
-            const std::vector<double> hand = fields.values(regionAbove(joints, j));
-            for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], hand[v]);
-        }
+    SharedProgress shared(bent.size());
+    Progress tell;
+    std::size_t told = 0;
+    if (progress) // joints finish in any order, but all runs report the same steps
+        tell = [&](const ProgressStep& step) {
+            progress({"bend of " + skeleton.joints[bent[told++]].name, step.fraction});
+        };
+    shared.tellWhile(tell, [&] {
+        parallelFor(bent.size(), [&](std::size_t i) {
+            const std::size_t j = bent[i];
+            fields.set(j, hasBoundaries(joints[j])
+                              ? boundedField(binary, smoother, j, radii[j], options.smoothing)
+                              : smoothBend(binary, smoother, j, radii, options));
+            shared.done({});
+        });
+    });
+    for (const std::size_t j : bent) {
+        if (!joints[j].isDigit() || !joints[regionAbove(joints, j)].isExtremity()) continue;
+        // A finger moves no skin that its hand does not move.
+        std::vector<double> field = fields.values(j);
+        const std::vector<double> hand = fields.values(regionAbove(joints, j));
+        for (std::size_t v = 0; v < field.size(); ++v) field[v] = std::min(field[v], hand[v]);
         fields.set(j, field);
     }
     raiseParents(joints, fields);

@@ -7,9 +7,8 @@
 #include "regions/HermiteRatio.h"
 
 #include <osgSkinBind/BindOptions>
+#include <osgSkinRig/RestSkeleton>
 
-#include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,9 +20,11 @@ namespace osgSkin {
 /// \param binary the fields' start
 /// \param radii of limbRadii()
 /// \param options uses smoothing and cutOff
-/// \param begin is called with the joint's index before each joint's field
+/// \param skeleton has the joints' names, for the progress
+/// \param progress called from the calling thread after each joint's field; may throw to give up
 JointFields bendFields(const BinaryField& binary, const std::vector<double>& radii,
-                       const BindOptions& options, const std::function<void(std::size_t)>& begin);
+                       const BindOptions& options, const RestSkeleton& skeleton,
+                       const Progress& progress);
 
 /// The relative slope of a field: how many times steeper it is at each vertex than on average.
 ///

@@ -2,12 +2,14 @@
 #include "regions/Regions.h"
 
 #include "joints/BodyAxes.h"
+#include "mesh/Parallel.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -54,14 +56,35 @@ struct Section {
 
 class SectionFinder {
 public:
-    explicit SectionFinder(const WeldedMesh& mesh) : _mesh(mesh), _heights(mesh.vertexCount()) {}
+    /// \param centre of the joint
+    /// \param farthest distance from it of points to come
+    SectionFinder(const WeldedMesh& mesh, const glm::dvec3& centre, double farthest)
+        : _mesh(mesh), _heights(mesh.vertexCount()), _farthest(farthest) {
+        for (const auto& t : mesh.triangles) {
+            const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]],
+                             &c = mesh.positions[t[2]];
+            const double nearest = std::min(
+                {glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
+            const double longest =
+                std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+            _triangles.push_back({nearest - longest, t});
+        }
+    }
 
     /// The shortest closed loop around the plane's point, if there is one.
-    std::optional<Section> find(const Plane& plane) {
-        for (std::size_t v = 0; v < _heights.size(); ++v)
-            _heights[v] = plane.height(_mesh.positions[v]);
+    /// \param most longer ones need not be found, now and later
+    std::optional<Section> find(const Plane& plane, double most) {
+        if (most < kShorter * _most) {
+            _most = most;
+            // A loop around a point goes no farther away from it than half its length.
+            const double reach = 0.5 * most + _farthest;
+            _triangles.erase(std::remove_if(_triangles.begin(), _triangles.end(),
+                                            [&](const Triangle& t) { return t.away > reach; }),
+                             _triangles.end());
+        }
         std::map<Edge, std::vector<Edge>> next; // a triangle joins two crossed edges
-        for (const auto& t : _mesh.triangles) {
+        for (const auto& [away, t] : _triangles) {
+            for (const std::uint32_t v : t) _heights[v] = plane.height(_mesh.positions[v]);
             const bool above[3] = {_heights[t[0]] > 0.0, _heights[t[1]] > 0.0,
                                    _heights[t[2]] > 0.0};
             if (above[0] == above[1] && above[1] == above[2]) continue;
@@ -107,6 +130,14 @@ public:
     }
 
 private:
+    /// Far triangles are dropped when sections become shorter by this factor.
+    static constexpr double kShorter = 0.9;
+
+    struct Triangle {
+        double away; ///< at most its distance from the centre
+        std::array<std::uint32_t, 3> corners;
+    };
+
     static void reach(std::uint32_t v, std::vector<bool>& isReached,
                       std::vector<std::uint32_t>& reached) {
         if (isReached[v]) return;
@@ -129,7 +160,11 @@ private:
             const auto on = std::find_if(ways.begin(), ways.end(), [&next](const Edge& way) {
                 return next.find(way) != next.end();
             });
-            if (on == ways.end()) break;
+            if (on == ways.end()) {
+                const auto back = std::find(ways.begin(), ways.end(), loop.front());
+                isClosed = isClosed && back != ways.end();
+                break;
+            }
             edge = *on;
         }
         return isClosed && loop.size() > 2 ? loop : std::vector<Edge>();
@@ -156,6 +191,9 @@ private:
 
     const WeldedMesh& _mesh;
     std::vector<double> _heights; ///< of the vertices above the plane
+    double _farthest;
+    double _most = std::numeric_limits<double>::infinity();
+    std::vector<Triangle> _triangles; ///< those that sections of length `_most` may have
 };
 
 /// Unit directions spread evenly over a cone around `axis`.
@@ -185,14 +223,17 @@ double reachBeyond(const PlannedJoint& joint) {
     return reach;
 }
 
-/// The shortest section around a point of a limb with one of these normals.
+/// The shortest section around a point of a limb with one of these normals, if it is shorter than
+/// `most`.
 std::optional<Section> narrowestAt(SectionFinder& finder, const glm::dvec3& point,
-                                   const std::vector<glm::dvec3>& normals) {
+                                   const std::vector<glm::dvec3>& normals,
+                                   double most = std::numeric_limits<double>::infinity()) {
     std::optional<Section> narrowest;
     for (const glm::dvec3& normal : normals) {
-        std::optional<Section> section = finder.find({point, normal});
-        if (section && (!narrowest || section->length < narrowest->length))
-            narrowest = std::move(section);
+        std::optional<Section> section = finder.find({point, normal}, kNarrow * most);
+        if (!section || section->length >= most) continue;
+        most = section->length;
+        narrowest = std::move(section);
     }
     return narrowest;
 }
@@ -215,25 +256,29 @@ std::optional<Section> headBorder(SectionFinder& finder, const PlannedJoint& joi
     std::optional<Section> narrowest;
     int lowest = 0;
     for (int i = 0; i <= kDrops; ++i) {
-        std::optional<Section> section = narrowestAt(finder, pointAt(i), normals);
-        if (!section || (narrowest && section->length >= narrowest->length)) continue;
+        std::optional<Section> section =
+            narrowest ? narrowestAt(finder, pointAt(i), normals, narrowest->length)
+                      : narrowestAt(finder, pointAt(i), normals);
+        if (!section) continue;
         narrowest = std::move(section);
         lowest = i;
     }
     if (!narrowest) return std::nullopt;
     Section border = *narrowest;
     for (int i = lowest; i-- > 0;) {
-        std::optional<Section> section = finder.find({pointAt(i), narrowest->plane.normal});
-        if (!section || section->length > kNarrow * narrowest->length) break;
+        const double most = kNarrow * narrowest->length;
+        std::optional<Section> section = finder.find({pointAt(i), narrowest->plane.normal}, most);
+        if (!section || section->length > most) break;
         border = std::move(*section);
     }
     return border;
 }
 
 /// \param front of the body, of any length; zero if unknown
-std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& mesh,
+std::vector<std::uint32_t> beyondJoint(const WeldedMesh& mesh,
                                        const std::vector<PlannedJoint>& joints,
                                        const PlannedJoint& joint, const glm::dvec3& front) {
+    SectionFinder finder(mesh, joint.centre, kMaxDrop * reachBeyond(joint));
     const glm::dvec3 across =
         glm::length(front) > 0.0 ? front : joint.centre - joints.front().centre;
     std::optional<Section> border =
@@ -251,11 +296,12 @@ std::vector<std::uint32_t> beyondJoint(SectionFinder& finder, const WeldedMesh& 
 } // namespace
 
 void findExtremities(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints) {
-    SectionFinder finder(mesh);
     const glm::dvec3 front = facing(joints);
-    for (PlannedJoint& joint : joints)
+    parallelFor(joints.size(), [&](std::size_t j) {
+        PlannedJoint& joint = joints[j];
         if (joint.isExtremity() && joint.holdsRegion() && joint.lengthAbove > 0.0)
-            joint.beyond = beyondJoint(finder, mesh, joints, joint, front);
+            joint.beyond = beyondJoint(mesh, joints, joint, front);
+    });
 }
 
 } // namespace osgSkin

@@ -107,8 +107,12 @@ void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf) {
     // across creases. Its probability of reaching a joint's seeds first is harmonic: one linear
     // system for all joints.
     std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixXd chances =
-        Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(labels.size()));
+    struct Exit {
+        int row;
+        std::uint32_t label;
+        double weight;
+    };
+    std::vector<Exit> exits; // to seeds
     for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
         if (row[v] < 0) continue;
         double sum = 0.0;
@@ -119,8 +123,7 @@ void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf) {
             if (row[next] >= 0)
                 entries.emplace_back(row[v], row[next], -weight);
             else
-                chances(row[v], std::lower_bound(labels.begin(), labels.end(), jointOf[next]) -
-                                    labels.begin()) += weight;
+                exits.push_back({row[v], jointOf[next], weight});
         }
         entries.emplace_back(row[v], row[v], sum);
     }
@@ -128,13 +131,22 @@ void floodRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf) {
     walk.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Matrix> solver(walk);
     if (solver.info() != Eigen::Success) return spreadRegions(mesh, jointOf);
-    chances = solver.solve(chances).eval();
-    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-        if (row[v] < 0) continue;
-        Eigen::Index likeliest = 0;
-        chances.row(row[v]).maxCoeff(&likeliest);
-        jointOf[v] = labels[static_cast<std::size_t>(likeliest)];
+    entries = {};
+    Eigen::VectorXd best = Eigen::VectorXd::Constant(count, -1.0);
+    std::vector<std::uint32_t> likeliest(static_cast<std::size_t>(count));
+    for (const std::uint32_t label : labels) { // one at a time, as there may be hundreds
+        Eigen::VectorXd chances = Eigen::VectorXd::Zero(count);
+        for (const Exit& exit : exits)
+            if (exit.label == label) chances[exit.row] += exit.weight;
+        chances = solver.solve(chances).eval();
+        for (int i = 0; i < count; ++i) {
+            if (!(chances[i] > best[i])) continue;
+            best[i] = chances[i];
+            likeliest[static_cast<std::size_t>(i)] = label;
+        }
     }
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
+        if (row[v] >= 0) jointOf[v] = likeliest[static_cast<std::size_t>(row[v])];
 }
 
 void spreadRegions(const WeldedMesh& mesh, std::vector<std::uint32_t>& jointOf) {

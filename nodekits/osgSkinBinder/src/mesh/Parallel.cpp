@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "elastic/Parallel.h"
+#include "mesh/Parallel.h"
 
 #include <exception>
 #include <future>
 
-namespace osgSkin::elastic {
+namespace osgSkin {
 
 void SharedProgress::tellWhile(const Progress& tell, const std::function<void()>& work) {
     if (!tell) return work();
@@ -36,10 +36,10 @@ void SharedProgress::tellUntilOver(const Progress& tell) {
     std::size_t told = 0;
     std::unique_lock<std::mutex> lock(_mutex);
     while (true) {
-        _news.wait(lock, [&] { return _over || _done > told; });
-        if (_done == told) return;
-        told = _done;
-        const ProgressStep step{_what, static_cast<double>(told) / static_cast<double>(_whole)};
+        _news.wait(lock, [&] { return _over || _done.size() > told; });
+        if (_done.size() == told) return;
+        const ProgressStep step{_done[told], double(told + 1) / double(_whole)};
+        ++told;
         lock.unlock();
         tell(step);
         lock.lock();
@@ -50,10 +50,9 @@ void SharedProgress::done(const std::string& what) {
     check();
     {
         const std::lock_guard<std::mutex> lock(_mutex);
-        ++_done;
-        _what = what;
+        _done.push_back(what);
     }
     _news.notify_one();
 }
 
-} // namespace osgSkin::elastic
+} // namespace osgSkin

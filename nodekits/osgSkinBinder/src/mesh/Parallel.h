@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef OSGSKINBINDER_ELASTIC_PARALLEL_H
-#define OSGSKINBINDER_ELASTIC_PARALLEL_H
+#ifndef OSGSKINBINDER_MESH_PARALLEL_H
+#define OSGSKINBINDER_MESH_PARALLEL_H
 
 #include <osgSkinBind/Progress>
 
@@ -10,12 +10,13 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #ifdef OSGSKIN_HAS_TBB
 #include <tbb/parallel_for.h>
 #endif
 
-namespace osgSkin::elastic {
+namespace osgSkin {
 
 /// Calls work(0) to work(count - 1), on all processors if oneTBB is built in. Exceptions propagate.
 /// May be nested.
@@ -55,14 +56,13 @@ private:
     void tellUntilOver(const Progress& tell);
 
     const std::size_t _whole;
-    std::size_t _done = 0;
-    std::string _what; ///< the last step
+    std::vector<std::string> _done; ///< the finished steps
     bool _over = false;
     std::mutex _mutex;
     std::condition_variable _news;
     std::atomic<bool> _givenUp{false};
 };
 
-} // namespace osgSkin::elastic
+} // namespace osgSkin
 
 #endif
