@@ -134,6 +134,32 @@ TEST(Springs, FollowWhatOtherCallbacksDo) {
     EXPECT_LT(figure.degreesTo(pose), 20.0); // hangs
 }
 
+TEST(Springs, ActAfterCallbacksThatAreAddedToTheirBoneLater) {
+    Figure figure;
+    const osg::ref_ptr<Figure::Turn> neck = new Figure::Turn;
+    figure.bone("Neck")->addUpdateCallback(neck);
+    for (int i = 1; i <= 20; ++i) {
+        neck->angle = osg::DegreesToRadians(4.0 * i);
+        figure.frame();
+    }
+    EXPECT_GT(figure.degreesTo(osg::Quat(neck->angle, Vec3d(0, 1, 0)) * kBack), 15.0);
+}
+
+TEST(Springs, SharedByTwoSkeletonsHangStill) {
+    Figure one;
+    const osg::ref_ptr<osgAnimation::Skeleton> other = osgSkin::makeSkeleton(tailRig());
+    other->getChild(0)->setUpdateCallback(one.springs);
+    one.upright->addChild(other);
+    one.frame();
+    const Vec3d atRest = one.tail();
+    EXPECT_GT(one.degreesTo(kBack), 5.0);
+    for (int i = 1; i <= 30; ++i) {
+        one.place->setMatrix(osg::Matrixd::translate(0.05 * i, 0, 0));
+        one.frame();
+        EXPECT_GT(one.tail() * atRest, 0.99999);
+    }
+}
+
 TEST(Springs, WithACentreSwingByMovementBelowItAlone) {
     Figure figure(tailSprings("Neck"));
     for (int i = 0; i < 60; ++i) figure.frame();

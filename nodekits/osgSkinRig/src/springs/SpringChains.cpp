@@ -32,12 +32,11 @@ bool isSound(const glm::dvec3& v) {
            std::abs(v.z) <= kMaxLength;
 }
 
-/// Between two vectors, with a length between theirs.
-glm::dvec3 between(const glm::dvec3& from, const glm::dvec3& to, double share) {
-    const glm::dvec3 line = glm::mix(from, to, share);
-    const double length = glm::length(line);
-    if (length <= kTiny) return to;
-    return line * (glm::mix(glm::length(from), glm::length(to), share) / length);
+/// shortestRotation() of unit vectors.
+glm::dquat swingOf(const glm::dvec3& from, const glm::dvec3& to) {
+    const double cosine = glm::dot(from, to);
+    if (cosine < -0.999) return shortestRotation(from, to);
+    return glm::normalize(glm::dquat(1.0 + cosine, glm::cross(from, to)));
 }
 
 glm::dvec3 nearestOn(const SpringChains::Collider& capsule, const glm::dvec3& point) {
@@ -186,11 +185,11 @@ void SpringChains::step(double share) {
             const auto p = static_cast<std::size_t>(parent);
             state.swing = _states[p].swing;
             state.head =
-                _states[p].head + state.swing * between(before.head - _before.bones[p].head,
-                                                        now.head - _now.bones[p].head, share);
+                _states[p].head + state.swing * glm::mix(before.head - _before.bones[p].head,
+                                                         now.head - _now.bones[p].head, share);
         }
         const glm::dvec3 bone =
-            state.swing * between(before.tip - before.head, now.tip - now.head, share);
+            state.swing * glm::mix(before.tip - before.head, now.tip - now.head, share);
         const double length = glm::length(bone);
         const glm::dvec3 last = std::exchange(_tips[j], state.head);
         if (length <= kTiny) continue;
@@ -211,7 +210,7 @@ void SpringChains::step(double share) {
         }
         state.pose = bone / length;
         state.bone = tip;
-        state.swing = shortestRotation(bone, tip) * state.swing;
+        state.swing = swingOf(state.pose, tip / length) * state.swing;
     }
 }
 

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace osgSkin {
 namespace {
@@ -65,7 +64,6 @@ private:
         osg::observer_ptr<Bone> bone;
         osg::Vec3d tip;           ///< in the bone's frame
         osg::Matrixd base, swung; ///< the bone's matrix before and after
-        bool hasSwung = false;
     };
     struct Hit {
         osg::observer_ptr<Bone> bone;
@@ -96,10 +94,9 @@ Springs::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& se
     const osgAnimation::BoneMap bones = bonesOf(skeleton);
     const auto find = [&](const std::string& name) -> Bone* {
         const auto found = bones.find(name);
-        return found == bones.end() ||
-                       scaleOf(found->second->getInvBindMatrixInSkeletonSpace()) == 0
-                   ? nullptr
-                   : found->second.get();
+        if (name.empty() || found == bones.end()) return nullptr;
+        Bone* const bone = found->second;
+        return scaleOf(bone->getInvBindMatrixInSkeletonSpace()) > 0.0 ? bone : nullptr;
     };
     struct Entry {
         int depth;
@@ -183,8 +180,7 @@ void Springs::Swing::restore() {
         for (SwungBone& each : group.bones) {
             Bone& bone = *each.bone;
             const Bone* const parent = bone.getBoneParent();
-            if (!each.hasSwung || bone.getMatrix() != each.swung || each.swung == each.base)
-                continue;
+            if (bone.getMatrix() != each.swung || each.swung == each.base) continue;
             bone.setMatrixInSkeletonSpace(parent ? each.base * parent->getMatrixInSkeletonSpace()
                                                  : each.base);
             rotateBone(bone, osg::Quat());
@@ -227,7 +223,6 @@ void Springs::Swing::move(Group& group, const osg::Matrixd& place, double second
         if (glm::length(from) > 0.0 && glm::length(to) > 0.0)
             rotateBone(*each.bone, toOsg(shortestRotation(from, to)));
         each.swung = each.bone->getMatrix();
-        each.hasSwung = true;
     }
 }
 
