@@ -17,6 +17,7 @@ constexpr double kBrakeTime = 0.02;   ///< over which a foot's braking is measur
 constexpr double kSlideTime = 0.04;   ///< for which a standing foot may be faster
 constexpr double kRolling = 0.1;      ///< speed of a standing foot that is not flat yet
 constexpr double kEdge = 0.03;        ///< larger differences of the ground's height are steps
+constexpr double kEdgeInAir = 0.06;   ///< the same below a foot in the air
 constexpr double kFootTime = 0.04;    ///< in which a foot takes another place than it was to
 constexpr double kLandTime = 0.02;    ///< the same of one that has just come down
 constexpr double kLanding = 0.2;      ///< seconds
@@ -222,25 +223,28 @@ void LegsOnGround::swing(const ClipLeg& leg, Foot& foot, const Foot& other, doub
     follow(foot.shift, shift, foot.way < kChosen ? kWaitTime : kShiftTime, dt);
     const bool isUp = found.point.z() > foot.from.heightAt(found.point);
     foot.share = isUp ? ramp(0.0, 0.7, foot.way) : ramp(0.2, 0.85, foot.way);
+    const double wasClear = foot.clear;
+    foot.clear = 0.0;
     const double before = heightOf(foot, ball);
     foot.next = found;
-    foot.clear = 0.0;
     const double height = heightOf(foot, ball);
-    // Over the edges before the toes and below the heel.
+    // Over the edges below heel and toes and before the toes.
     const auto above = [&](const osg::Vec3d& point, double clip) {
         const std::optional<GroundPlane> below = ground(point);
         return below ? below->point.z() - heightOf(foot, point) - std::max(0.0, clip - _floor)
                      : 0.0;
     };
     const osg::Vec3d toes = tip + foot.shift;
+    const double overToes = above(toes, tip.z());
     const double clear =
-        std::max({0.0, above(heel + foot.shift, heel.z()),
+        std::max({0.0, overToes, above(heel + foot.shift, heel.z()),
                   above(toes + direction * std::min(kLead * speed, left), tip.z())});
     // It waits before an edge until it is above.
-    const bool isBehind = above(toes, tip.z()) > before - height + foot.error + kMargin * _leg;
+    foot.error -= height - before;
+    const bool isBehind = overToes > wasClear + foot.error + kMargin * _leg;
     if (isBehind && foot.shift.length() < kMaxWait * _leg) foot.shift -= foot.speed * dt;
+    if (std::abs(clear - wasClear) > kEdgeInAir * _leg) foot.error -= clear - wasClear;
     foot.clear = clear;
-    foot.error -= height + clear - before;
 }
 
 /// Where a foot is: on the plane below it, as its clip is on the floor.
