@@ -8,6 +8,10 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 limit=${1:-60}
 export OSG_LIBRARY_PATH=$PWD/build/release/lib
+# What commands write lands in a folder of its own.
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+ln -s "$PWD"/{build,cmake,data,examples,nodekits,tests} "$work"
 programs='osgskin_[a-z_]*|[a-z]*Tests|osgskintwist --report|osgskincrowd --time'
 
 # Prints the sections of a README as lines "SECTION<tab>LINE".
@@ -27,7 +31,7 @@ while read -r readme; do
       echo "new:"
       output=$(mktemp)
       # shellcheck disable=SC2086 # a command and its words
-      eval "timeout $limit build/release/bin/$command" >"$output" 2>&1 </dev/null
+      (cd "$work" && eval "timeout $limit build/release/bin/$command") >"$output" 2>&1 </dev/null
       case $? in
         124) echo "left out: takes more than $limit s" ;;
         127) echo "left out: not built" ;;
