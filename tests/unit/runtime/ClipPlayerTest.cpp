@@ -246,6 +246,26 @@ TEST(ClipPlayer, ExtractsRootMotion) {
     EXPECT_EQ(copy.player->takeRootMotion().x(), 0.0);
 }
 
+/// Files of cycles often end with the frame with which they begin.
+TEST(ClipPlayer, RootStandsWhereACycleRepeatsItsFirstPose) {
+    osgSkin::Clip cycle = someClip(12, 1.0);
+    for (std::size_t j = 0; j < 3; ++j) cycle.rotations[3 * 11 + j] = cycle.rotations[j];
+    Character character(someClip(12, 0.0));
+    const auto copy = osgSkin::ClipCharacter::create(*character.scene)->makeInstance();
+    copy.player->setLayer(0, {SampledClip::create(cycle, character.rig), 0.0});
+    for (const ClipPlayer::Root root :
+         {ClipPlayer::Root::Extracted, ClipPlayer::Root::ExtractedWithTurn}) {
+        copy.player->setRoot(root);
+        copy.player->seek(0, 0.0);
+        for (int i = 0; i < 24; ++i) {
+            copy.player->advance(kFrame);
+            EXPECT_NEAR(copy.player->takeRootMatrix().getTrans().x(), i % 12 == 11 ? 0.0 : 0.1,
+                        1e-6)
+                << i;
+        }
+    }
+}
+
 namespace {
 
 /// A walk along an arc of a circle of radius 3, swaying; `up` is y.

@@ -134,6 +134,7 @@ private:
     double headingOf(const JointSample& root) const;
     GroundMove rootMove(const SampledClip& clip, const JointSample& root) const;
     GroundMove rootAt(const Layer& layer, double time, double& loops) const;
+    bool areAlike(const SampledClip& clip, std::size_t a, std::size_t b) const;
     GroundMove seamStep(const SampledClip& clip) const;
     GroundMove rootStep(const Slot& slot) const;
     void advanceRoot();

@@ -11,6 +11,8 @@
 namespace osgSkin {
 namespace {
 
+constexpr double kAlike = 1.0 - 1e-8; ///< cosine of half the angle between rotations, 3e-4 radians
+
 /// The same angle from -pi to pi.
 double wrapped(double angle) {
     return std::remainder(angle, 2.0 * osg::PI);
@@ -82,10 +84,24 @@ ClipLayers::GroundMove ClipLayers::rootAt(const Layer& layer, double time, doubl
     return then(rootMove(clip, rootOf(at.from)), step);
 }
 
-/// The step from the last sample back to the first: the mean of its neighbours.
+/// Whether two samples have the same pose, wherever the root is on the ground.
+bool ClipLayers::areAlike(const SampledClip& clip, std::size_t a, std::size_t b) const {
+    for (std::size_t j = 0; j < clip.joints().size(); ++j) {
+        JointSample one = clip.sample(a)[j], other = clip.sample(b)[j];
+        if (j == clip.rootJoint()) {
+            keepInPlace(clip, one);
+            keepInPlace(clip, other);
+        }
+        if (std::abs(glm::dot(one.rotation, other.rotation)) < kAlike) return false;
+    }
+    return true;
+}
+
+/// The step from the last sample back to the first: the mean of its neighbours, or none where the
+/// last repeats the first, as many files of cycles have it: feet then stand for that step.
 ClipLayers::GroundMove ClipLayers::seamStep(const SampledClip& clip) const {
     const std::size_t last = clip.sampleCount() - 1;
-    if (last == 0) return {};
+    if (last == 0 || (areAlike(clip, last, 0) && !areAlike(clip, 1, 0))) return {};
     const auto moveAt = [&](std::size_t i) {
         return rootMove(clip, clip.sample(i)[clip.rootJoint()]);
     };
