@@ -10,7 +10,7 @@ fail() { echo "run_sumo.sh: $*" >&2; exit 1; }
 here=$(dirname "$(realpath "$0")")
 [ -f "$1" ] || fail "$1: no such file, expected one that osgskinbake --faces -y --walker wrote"
 walker=$(realpath "$1")
-for program in sumo-gui netconvert import; do
+for program in sumo-gui netconvert import convert; do
   command -v "$program" >/dev/null || fail "no $program here, expected Debian's sumo and imagemagick"
 done
 export OSG_LIBRARY_PATH=${OSG_LIBRARY_PATH:-$(realpath "$here/../../build/release/lib")}
@@ -51,6 +51,11 @@ take() { # sumo-gui on this display, and pictures of it
   sumo-gui -n street.net.xml -r people.rou.xml -g view.xml --step-length 0.05 --delay 1000 \
     --osg-view --start --window-size 1200,900 >sumo.log 2>&1 &
   local gui=$!
+  for _ in {1..120}; do # until the view has drawn its sky
+    sleep 0.5
+    import -window root 0.png
+    [ "$(convert 0.png -format '%[hex:p{640,400}]' info:)" = 000000 ] || break
+  done
   for picture in 0 1 2 3 4 5 6 7 8 9; do
     sleep 0.5
     import -window root "$picture.png"
