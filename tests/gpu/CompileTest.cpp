@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What OSG's compile visitors prepare, so that the first frame need not.
+// Skins and crowds are ready for their first frame after one of OSG's compile visitors.
 #include "CrowdSubject.h"
 #include "GpuStage.h"
 #include "GpuSubject.h"

@@ -174,13 +174,6 @@ constexpr std::size_t kMaxTexels = std::size_t(1) << 24;
 /// Clip numbers of CrowdInstance.
 constexpr std::size_t kMaxClips = 65536;
 
-osg::ref_ptr<osg::TextureBuffer> textureOf(osg::Array& array, GLint format) {
-    array.setVertexBufferObject(new osg::VertexBufferObject);
-    osg::ref_ptr<osg::TextureBuffer> texture = new osg::TextureBuffer(&array);
-    texture->setInternalFormat(format);
-    return texture;
-}
-
 void expandBy(osg::BoundingBox& all, const osg::BoundingBox& box, const osg::Matrixd& matrix) {
     if (!box.valid()) return;
     for (unsigned int corner = 0; corner < 8; ++corner) all.expandBy(box.corner(corner) * matrix);

@@ -2,6 +2,7 @@
 #include "crowd/CrowdDraws.h"
 
 #include "crowd/CrowdText.h"
+#include "model/PackTexels.h"
 #include "skin/ComputeStage.h"
 
 #include <osgSkinGpu/CrowdInstance>
@@ -70,15 +71,11 @@ std::size_t texelsOf(const osg::TextureBuffer& texture) {
 CrowdDraws::CrowdDraws(const CrowdCharacter& character, std::size_t capacity, Count count)
     : _capacity(capacity),
       _list(new osg::UIntArray(static_cast<unsigned int>(capacity * character.levelCount()))) {
-    _list->setVertexBufferObject(new osg::VertexBufferObject);
-    _visible = new osg::TextureBuffer(_list);
-    _visible->setInternalFormat(GL_R32UI);
-    if (count == Count::Indirect) { // the card writes both
-        _list->getVertexBufferObject()->setUsage(GL_DYNAMIC_COPY_ARB);
+    const bool isIndirect = count == Count::Indirect; // then the card writes list and commands
+    _visible = textureOf(*_list, GL_R32UI, isIndirect ? GL_DYNAMIC_COPY_ARB : GL_STREAM_DRAW_ARB);
+    if (isIndirect) {
         _commands = new osg::DefaultIndirectCommandDrawElements;
         _commands->getBufferObject()->setUsage(GL_DYNAMIC_COPY_ARB);
-    } else {
-        _list->getVertexBufferObject()->setUsage(GL_STREAM_DRAW_ARB);
     }
     for (std::size_t level = 0; level < character.levelCount(); ++level)
         for (const CrowdCharacter::Part& part : character.parts())

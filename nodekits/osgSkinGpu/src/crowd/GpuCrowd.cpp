@@ -3,6 +3,7 @@
 
 #include "crowd/CrowdDraws.h"
 #include "crowd/CrowdText.h"
+#include "model/PackTexels.h"
 #include "skin/ComputeStage.h"
 
 #include <osgSkin/Error>
@@ -98,12 +99,8 @@ public:
     CrowdMembers(const CrowdCharacter& character, const std::vector<CrowdInstance>& instances,
                  double since)
         : _character(character), _since(since), _texels(new osg::Vec4uiArray) {
-        const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
-        buffer->setUsage(GL_DYNAMIC_DRAW_ARB);
-        _texels->setVertexBufferObject(buffer);
         _texels->resize(std::max<std::size_t>(1, instances.size()) * CrowdInstance::kTexels);
-        _texture = new osg::TextureBuffer(_texels);
-        _texture->setInternalFormat(GL_RGBA32UI_EXT);
+        _texture = textureOf(*_texels, GL_RGBA32UI_EXT, GL_DYNAMIC_DRAW_ARB);
         set(instances);
     }
 
@@ -328,7 +325,8 @@ private:
     osg::ref_ptr<osg::StateSet> _state;
 };
 
-/// What compile visitors get of a crowd: they compile drawables, and know nothing of defines.
+/// Compiles a crowd for OSG's compile visitors, which look for drawables and ignore shaders'
+/// defines.
 class CrowdCompile : public osg::Drawable {
 public:
     /// \param states above the draws, the topmost first

@@ -9,7 +9,6 @@
 #include <osgSkin/SkinModel>
 
 #include <osg/Array>
-#include <osg/BufferObject>
 #include <osg/ref_ptr>
 
 #include <algorithm>
@@ -221,10 +220,7 @@ GpuModel::GpuModel(const SkinModel& model)
     _paletteSize = weightTexels(model, _correctiveJoints).back();
     const osg::ref_ptr<osg::Vec4uiArray> texels = packModel(model, correctives);
     _texels = texels->size();
-    const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
-    texels->setVertexBufferObject(buffer);
-    _texture = new osg::TextureBuffer(texels);
-    _texture->setInternalFormat(GL_RGBA32UI_EXT);
+    _texture = textureOf(*texels, GL_RGBA32UI_EXT);
 }
 
 GpuModel::~GpuModel() {

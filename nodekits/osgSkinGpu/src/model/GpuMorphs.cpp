@@ -5,7 +5,6 @@
 #include "model/PackedOnce.h"
 
 #include <osg/Array>
-#include <osg/BufferObject>
 
 #include <algorithm>
 #include <vector>
@@ -57,10 +56,7 @@ osg::ref_ptr<const GpuMorphs> GpuMorphs::of(const MorphTargets& targets) {
 GpuMorphs::GpuMorphs(const MorphTargets& targets) : _targets(&targets) {
     const osg::ref_ptr<osg::Vec4uiArray> texels = packMorphs(targets);
     _texels = texels->size();
-    const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
-    texels->setVertexBufferObject(buffer);
-    _texture = new osg::TextureBuffer(texels);
-    _texture->setInternalFormat(GL_RGBA32UI_EXT);
+    _texture = textureOf(*texels, GL_RGBA32UI_EXT);
 }
 
 GpuMorphs::~GpuMorphs() {

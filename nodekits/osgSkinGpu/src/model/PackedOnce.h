@@ -9,7 +9,7 @@
 
 namespace osgSkin {
 
-/// What was packed of each source, while somebody has it. Thread-safe.
+/// Packed data by source, shared by all who use it and freed with the last of them. Thread-safe.
 ///
 /// \tparam Packed keeps its source alive, and calls forget() in its destructor
 template <class Source, class Packed>

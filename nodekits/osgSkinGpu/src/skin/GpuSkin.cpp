@@ -2,6 +2,7 @@
 #include <osgSkinGpu/GpuSkin>
 
 #include "model/GpuMorphs.h"
+#include "model/PackTexels.h"
 #include "skin/ComputeStage.h"
 #include "skin/DeformText.h"
 
@@ -220,13 +221,6 @@ void ownBuffer(osg::Array& array, GLenum usage) {
     array.setVertexBufferObject(buffer);
 }
 
-osg::ref_ptr<osg::TextureBuffer> readable(osg::Array& array, GLenum usage) {
-    ownBuffer(array, usage);
-    osg::ref_ptr<osg::TextureBuffer> texture = new osg::TextureBuffer(&array);
-    texture->setInternalFormat(GL_RGBA32F_ARB);
-    return texture;
-}
-
 osg::ref_ptr<osg::Vec4Array> restTangents(const osg::Array& from) {
     osg::ref_ptr<osg::Vec4Array> tangents = new osg::Vec4Array;
     if (const auto* four = dynamic_cast<const osg::Vec4Array*>(&from))
@@ -250,7 +244,8 @@ public:
         setUpBin(*_state, kComputeBin);
         _state->setAttribute(computeProgram(attribute >= 0, targets), kOurs);
         addInput(kModelUnit, "osgSkinModel", model->texture());
-        addInput(kPaletteUnit, "osgSkinPalette", readable(*_palette, GL_STREAM_DRAW_ARB));
+        addInput(kPaletteUnit, "osgSkinPalette",
+                 textureOf(*_palette, GL_RGBA32F_ARB, GL_STREAM_DRAW_ARB));
         addOutput(kPositionBuffer, *_geometry->getVertexArray());
         addOutput(kNormalBuffer, *_geometry->getNormalArray());
         if (targets) {
@@ -266,7 +261,7 @@ public:
         const auto index = static_cast<unsigned int>(attribute);
         const osg::ref_ptr<osg::Vec4Array> rest =
             restTangents(*skin.getRestGeometry()->getVertexAttribArray(index));
-        addInput(kTangentUnit, "osgSkinTangents", readable(*rest, GL_STATIC_DRAW_ARB));
+        addInput(kTangentUnit, "osgSkinTangents", textureOf(*rest, GL_RGBA32F_ARB));
         addOutput(kTangentBuffer, *_geometry->getVertexAttribArray(index));
     }
 

@@ -32,11 +32,11 @@ constexpr double kMaxWait = 0.3;      ///< the longest way that a foot stays bac
 constexpr double kMargin = 0.025;     ///< of a sole from an edge
 constexpr double kHipsTime = 0.06;    ///< in which the hips follow the feet
 constexpr double kMaxHipsSpeed = 1.9; ///< leg lengths a second
-constexpr double kStraight = 0.995;   ///< of a leg's length, which it may have
-constexpr double kMostBent = 0.35;    ///< the same of the shortest leg
-constexpr double kJump = 0.6;         ///< a longer way in a step: the program placed the figure
-constexpr double kPause = 0.25;       ///< a longer step begins again
-constexpr double kSteepest = 0.5;     ///< cosine, of slopes that feet are turned to
+constexpr double kStraight = 0.995;   ///< share of its length to which a leg may stretch
+constexpr double kShortest = 0.35; ///< share of the leg's length that is left when it is bent most
+constexpr double kJump = 0.6;      ///< a longer way in a step: the program placed the figure
+constexpr double kPause = 0.25;    ///< a longer step begins again
+constexpr double kSteepest = 0.5;  ///< cosine, of slopes that feet are turned to
 
 osg::Vec3d level(const osg::Vec3d& v) {
     return {v.x(), v.y(), 0.0};
@@ -329,7 +329,7 @@ void LegsOnGround::bend(const ClipLeg& leg, Foot& foot) const {
     osg::Vec3d toAnkle = foot.ankle - hip;
     const double longest = std::max(kStraight * (a + b), (leg.ankle - leg.hip).length());
     const double distance = std::clamp(
-        toAnkle.length(), std::max(std::abs(a - b), kMostBent * (a + b)), std::min(longest, a + b));
+        toAnkle.length(), std::max(std::abs(a - b), kShortest * (a + b)), std::min(longest, a + b));
     toAnkle = unit(toAnkle);
     const double along = (a * a + distance * distance - b * b) / (2.0 * distance);
     const double bent = std::sqrt(std::max(0.0, a * a - along * along));

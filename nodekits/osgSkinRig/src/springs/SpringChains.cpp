@@ -16,7 +16,7 @@ constexpr double kLongestFrame = 0.25;  ///< seconds; more is a pause
 constexpr double kJump = 1.0;           ///< metres in one frame, beyond the speed before it
 constexpr double kTurnCosine = 0.70711; ///< of half the turn that is a jump, 90 degrees
 constexpr int kSettleSteps = 60;        ///< of 1/60 s
-constexpr double kLeastTaken = -0.3;    ///< while a bone is pushed
+constexpr double kLeastBraking = -0.3;  ///< of a bone that is pushed, which speeds it up
 constexpr double kSettleDrag = 0.5;     ///< at least
 constexpr double kTiny = 1e-9;          ///< metres
 constexpr double kMaxStiffness = 1e6, kMaxLength = 1e12;
@@ -193,10 +193,10 @@ void SpringChains::step(double share) {
         const double length = glm::length(bone);
         const glm::dvec3 last = std::exchange(_tips[j], state.head);
         if (length <= kTiny) continue;
-        const double taken = std::max(state.pull / (kVrmRate * length), kLeastTaken);
+        const double braking = std::max(state.pull / (kVrmRate * length), kLeastBraking);
         const glm::dvec3 speed =
-            state.kept * (state.headSpeed +
-                          (state.speed - state.headSpeed) / (1.0 + taken * (1.0 + 0.5 * taken))) +
+            state.kept * (state.headSpeed + (state.speed - state.headSpeed) /
+                                                (1.0 + braking * (1.0 + 0.5 * braking))) +
             state.gainToPose * state.pose + state.gain;
         const glm::dvec3 free = last + _step * speed - state.head;
         glm::dvec3 tip = toLength(free, state.bone, length);
