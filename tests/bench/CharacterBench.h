@@ -41,6 +41,9 @@ void setUpShare(benchmark::State& state, Kind kind, Larger larger);
 /// Adds the benchmarks of layers of clips, whose names begin with "layers".
 void addLayers();
 
+/// Adds the benchmark of poses that are transferred one at a time, "live".
+void addLive();
+
 } // namespace bench
 
 #endif

@@ -383,6 +383,7 @@ int main(int argc, char** argv) {
                                  bench::Player::OsgAnimation, bench::Kind::Turned)
         ->Unit(benchmark::kMicrosecond);
     bench::addLayers();
+    bench::addLive();
     bench::addLoads();
     bench::addLoadedFrames();
     bench::addWalkers();

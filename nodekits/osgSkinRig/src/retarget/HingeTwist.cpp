@@ -21,11 +21,6 @@ constexpr double kMaxTwist = 0.75 * kTurn; ///< 90 degrees in each of the three 
 /// Of a bone without direction, over the longest bone of the limb.
 constexpr double kNoLength = 1e-6;
 
-struct Limb {
-    std::size_t upper, hinge, end;
-    std::vector<std::size_t> aboveHinge, aboveEnd; ///< joints between them, parents first
-};
-
 /// The joints between two joints, parents first; nothing where `below` is no descendant of `above`.
 std::optional<std::vector<std::size_t>> between(const RestSkeleton& rig, std::size_t above,
                                                 std::size_t below) {
@@ -39,37 +34,32 @@ std::optional<std::vector<std::size_t>> between(const RestSkeleton& rig, std::si
     return result;
 }
 
-std::vector<Limb> findLimbs(const RestSkeleton& rig, const JointRoles& roles) {
-    constexpr const char* kLimbs[][3] = {{"UpperArm", "LowerArm", "Hand"},
-                                         {"UpperLeg", "LowerLeg", "Foot"}};
-    std::vector<Limb> limbs;
-    for (const std::string side : {"Left", "Right"})
-        for (const auto& parts : kLimbs) {
-            std::size_t joints[3];
-            bool isKnown = true;
-            for (int i = 0; i < 3; ++i) {
-                const int joint = roles.joint(side + parts[i]);
-                isKnown = isKnown && joint >= 0;
-                joints[i] = static_cast<std::size_t>(joint);
-            }
-            if (!isKnown) continue;
-            auto aboveHinge = between(rig, joints[0], joints[1]);
-            auto aboveEnd = between(rig, joints[1], joints[2]);
-            if (aboveHinge && aboveEnd)
-                limbs.push_back({joints[0], joints[1], joints[2], *aboveHinge, *aboveEnd});
-        }
-    return limbs;
-}
-
 /// The equivalent angle that is nearest to another one.
 double nearest(double angle, double to) {
     return angle + kTurn * std::round((to - angle) / kTurn);
 }
 
-/// One limb in one sample.
-class LimbSample {
+/// The equivalent angles that are nearest to others, or to 0 if they are too large.
+glm::dvec3 continued(const glm::dvec3& twists, const glm::dvec3& before) {
+    glm::dvec3 result;
+    for (int i = 0; i < 3; ++i) {
+        result[i] = nearest(twists[i], before[i]);
+        if (std::abs(result[i]) > kMaxTwist) result[i] = nearest(result[i], 0.0);
+    }
+    return result;
+}
+
+} // namespace
+
+double twistAbout(const glm::dvec3& axis, const glm::dquat& q) {
+    const double sine = glm::dot(axis, glm::dvec3(q.x, q.y, q.z));
+    return 2.0 * (q.w < 0.0 ? std::atan2(-sine, -q.w) : std::atan2(sine, q.w));
+}
+
+/// One limb in one pose.
+class HingeTwist::LimbPose {
 public:
-    LimbSample(const RestSkeleton& rig, const Limb& limb, glm::dquat* local)
+    LimbPose(const RestSkeleton& rig, const Limb& limb, glm::dquat* local)
         : _limb(limb), _local(local) {
         _upperBone = boneOf(rig, limb.upper, limb.aboveHinge, limb.hinge, _toHinge);
         _lowerBone = boneOf(rig, limb.hinge, limb.aboveEnd, limb.end, _toEnd);
@@ -83,12 +73,27 @@ public:
     /// Whether both bones have a direction.
     bool isValid() const { return _valid; }
 
-    double upperTwist() const { return twistAbout(_upperBone, _local[_limb.upper]); }
-    double hingeTwist() const { return twistAbout(_lowerBone, _local[_limb.hinge]); }
-    /// The end's twist about the lower bone.
-    double endTwist() const {
-        return twistAbout(glm::conjugate(_toEnd) * _lowerBone, _local[_limb.end]);
+    /// Of the upper joint and the hinge about their bones, and of the end about the lower bone.
+    glm::dvec3 twists() const {
+        return {twistAbout(_upperBone, _local[_limb.upper]), hingeTwist(),
+                twistAbout(glm::conjugate(_toEnd) * _lowerBone, _local[_limb.end])};
     }
+
+    /// Distributes what the hinge has too much.
+    /// \param twists as twists() has them, or with whole turns more
+    /// \return whether it had too much
+    bool share(const glm::dvec3& twists) {
+        const double excess = std::abs(twists[1]) - kKept;
+        if (!(excess > 0.0)) return false;
+        const double sign = twists[1] < 0.0 ? -1.0 : 1.0;
+        // Both get equal twists, or the one with less gets all.
+        const double up = std::clamp(0.5 * (excess + sign * (twists[2] - twists[0])), 0.0, excess);
+        take(sign * up, sign * (excess - up));
+        return true;
+    }
+
+private:
+    double hingeTwist() const { return twistAbout(_lowerBone, _local[_limb.hinge]); }
 
     /// Moves the twists `up` and `down` from the hinge to the joint above and to the end.
     void take(double up, double down) {
@@ -104,7 +109,6 @@ public:
             glm::angleAxis(down, glm::conjugate(_toEnd) * _lowerBone) * _local[_limb.end]);
     }
 
-private:
     /// From a joint to a descendant, in the joint's frame; `to` is the rotation of the last joint
     /// between them.
     glm::dvec3 boneOf(const RestSkeleton& rig, std::size_t from,
@@ -140,62 +144,65 @@ private:
     bool _valid = false;
 };
 
-struct Twists {
-    std::vector<double> upper, hinge, end; ///< [sample], unwrapped
-};
-
-/// Adds whole turns so that no angle is further than half a turn from the one before it, and the
-/// middle one of all is within half a turn of 0.
-void unwrap(std::vector<double>& angles) {
-    for (std::size_t f = 1; f < angles.size(); ++f) angles[f] = nearest(angles[f], angles[f - 1]);
-    std::vector<double> sorted = angles;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double shift = nearest(*middle, 0.0) - *middle;
-    for (double& angle : angles) {
-        angle += shift;
-        if (std::abs(angle) > kMaxTwist) angle = nearest(angle, 0.0);
-    }
+HingeTwist::HingeTwist(const RestSkeleton& rig, const JointRoles& roles) : _rig(rig) {
+    constexpr const char* kLimbs[][3] = {{"UpperArm", "LowerArm", "Hand"},
+                                         {"UpperLeg", "LowerLeg", "Foot"}};
+    for (const std::string side : {"Left", "Right"})
+        for (const auto& parts : kLimbs) {
+            std::size_t joints[3];
+            bool isKnown = true;
+            for (int i = 0; i < 3; ++i) {
+                const int joint = roles.joint(side + parts[i]);
+                isKnown = isKnown && joint >= 0;
+                joints[i] = static_cast<std::size_t>(joint);
+            }
+            if (!isKnown) continue;
+            auto aboveHinge = between(rig, joints[0], joints[1]);
+            auto aboveEnd = between(rig, joints[1], joints[2]);
+            if (aboveHinge && aboveEnd)
+                _limbs.push_back({joints[0], joints[1], joints[2], *aboveHinge, *aboveEnd});
+        }
 }
 
-} // namespace
-
-double twistAbout(const glm::dvec3& axis, const glm::dquat& q) {
-    const double sine = glm::dot(axis, glm::dvec3(q.x, q.y, q.z));
-    return 2.0 * (q.w < 0.0 ? std::atan2(-sine, -q.w) : std::atan2(sine, q.w));
-}
-
-std::vector<std::size_t> shareHingeTwist(const RestSkeleton& rig, const JointRoles& roles,
-                                         Clip& clip) {
+std::vector<std::size_t> HingeTwist::share(Clip& clip) const {
     std::vector<std::size_t> shared(clip.joints, 0);
-    for (const Limb& limb : findLimbs(rig, roles)) {
-        std::vector<LimbSample> samples;
-        Twists twists;
-        samples.reserve(clip.frames);
+    for (const Limb& limb : _limbs) {
+        std::vector<LimbPose> poses;
+        std::vector<glm::dvec3> twists; // unwrapped
+        poses.reserve(clip.frames);
         for (std::size_t f = 0; f < clip.frames; ++f) {
-            const LimbSample& sample =
-                samples.emplace_back(rig, limb, &clip.rotations[f * clip.joints]);
-            if (!sample.isValid()) break;
-            twists.upper.push_back(sample.upperTwist());
-            twists.hinge.push_back(sample.hingeTwist());
-            twists.end.push_back(sample.endTwist());
+            const LimbPose& pose = poses.emplace_back(_rig, limb, &clip.rotations[f * clip.joints]);
+            if (!pose.isValid()) break;
+            glm::dvec3 next = pose.twists();
+            for (int i = 0; f > 0 && i < 3; ++i) next[i] = nearest(next[i], twists.back()[i]);
+            twists.push_back(next);
         }
-        if (twists.hinge.size() < clip.frames || clip.frames == 0) continue;
-        unwrap(twists.upper);
-        unwrap(twists.hinge);
-        unwrap(twists.end);
-        for (std::size_t f = 0; f < clip.frames; ++f) {
-            const double excess = std::abs(twists.hinge[f]) - kKept;
-            if (!(excess > 0.0)) continue;
-            ++shared[limb.hinge];
-            const double sign = twists.hinge[f] < 0.0 ? -1.0 : 1.0;
-            // Both get equal twists, or the one with less gets all.
-            const double up =
-                std::clamp(0.5 * (excess + sign * (twists.end[f] - twists.upper[f])), 0.0, excess);
-            samples[f].take(sign * up, sign * (excess - up));
+        if (twists.size() < clip.frames || clip.frames == 0) continue;
+        glm::dvec3 shift; // of the middle angles to within half a turn of 0
+        for (int i = 0; i < 3; ++i) {
+            std::vector<double> sorted;
+            for (const glm::dvec3& each : twists) sorted.push_back(each[i]);
+            const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+            std::nth_element(sorted.begin(), middle, sorted.end());
+            shift[i] = nearest(*middle, 0.0) - *middle;
         }
+        for (std::size_t f = 0; f < clip.frames; ++f)
+            if (poses[f].share(continued(twists[f], twists[f] + shift))) ++shared[limb.hinge];
     }
     return shared;
+}
+
+void HingeTwist::shareNext(glm::dquat* local) {
+    for (Limb& limb : _limbs) {
+        LimbPose pose(_rig, limb, local);
+        if (!pose.isValid()) continue;
+        limb.last = continued(pose.twists(), limb.last);
+        pose.share(limb.last);
+    }
+}
+
+void HingeTwist::restart() {
+    for (Limb& limb : _limbs) limb.last = glm::dvec3(0.0);
 }
 
 } // namespace osgSkin

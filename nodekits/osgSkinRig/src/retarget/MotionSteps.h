@@ -104,12 +104,19 @@ public:
 
     double scale() const { return _scale; }
 
-    /// Adds a sample: the position of the motion's root, and the world orientations of both.
+    /// The position of the rig's root in one pose, before finish() puts it on the floor.
+    /// \param motionRoot position of the motion's root
+    /// \param motionWorld world orientations of the motion's joints
+    /// \param rigWorld world orientations of the rig's joints
+    glm::dvec3 place(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
+                     const std::vector<glm::dquat>& rigWorld);
+
+    /// Adds a sample: as place(), and remembers it for finish().
     void add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
              const std::vector<glm::dquat>& rigWorld);
 
-    /// Positions of the joints in the sample added last; the rig's before finish() puts it on the
-    /// floor.
+    /// Positions of the joints in the pose of the last call; the rig's before finish() puts it on
+    /// the floor.
     const std::vector<glm::dvec3>& motionPositions() const { return _motionPositions; }
     const std::vector<glm::dvec3>& rigPositions() const { return _rigPositions; }
 
@@ -134,6 +141,7 @@ private:
     double _rigHeight = 0.0; ///< of the hips
     double _scale = 1.0;
     glm::dvec3 _offset{0.0};
+    glm::dvec3 _hips{0.0};  ///< in the last pose
     glm::dvec3 _start{0.0}; ///< of the hips in the first sample, relative to rest
     bool _movedToOrigin = false;
     std::vector<glm::dvec3> _roots;
@@ -151,15 +159,37 @@ private:
 /// as possible. The bones' directions, the joints' positions and the world rotation of the hand or
 /// foot with its descendants do not change.
 ///
-/// Twists are unwrapped over the clip, so that none of the three angles jumps where the hinge's
+/// Twists are unwrapped over the poses, so that none of the three angles jumps where the hinge's
 /// twist runs through 180 degrees. Beyond 270 degrees the shorter angle is taken again.
-///
-/// \param rig the clip's
-/// \param roles of the rig's joints
-/// \param clip changed only in samples in which a hinge has more than 90 degrees of twist
-/// \return for each joint, the number of samples in which its twist was distributed
-std::vector<std::size_t> shareHingeTwist(const RestSkeleton& rig, const JointRoles& roles,
-                                         Clip& clip);
+class HingeTwist {
+public:
+    /// \param rig must outlive this
+    /// \param roles of the rig's joints
+    HingeTwist(const RestSkeleton& rig, const JointRoles& roles);
+
+    /// Unwraps over a whole clip, around the middle one of its angles.
+    /// \param clip of the rig; changed only in samples in which a hinge has more than 90 degrees
+    /// \return for each joint, the number of samples in which its twist was distributed
+    std::vector<std::size_t> share(Clip& clip) const;
+
+    /// Continues from the pose before; the first has the shortest angles.
+    /// \param local rotations of the rig's joints
+    void shareNext(glm::dquat* local);
+
+    /// The next pose is the first one.
+    void restart();
+
+private:
+    struct Limb {
+        std::size_t upper, hinge, end;
+        std::vector<std::size_t> aboveHinge, aboveEnd; ///< joints between them, parents first
+        glm::dvec3 last{0.0}; ///< twists of upper, hinge and end in the pose before
+    };
+    class LimbPose;
+
+    const RestSkeleton& _rig;
+    std::vector<Limb> _limbs;
+};
 
 } // namespace osgSkin
 

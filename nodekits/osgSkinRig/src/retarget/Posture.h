@@ -4,7 +4,6 @@
 
 #include "retarget/RetargetTarget.h"
 
-#include <osgSkinRig/Clip>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/RestSkeleton>
@@ -113,22 +112,50 @@ struct SameSkeleton {
                                             const std::vector<int>& motionJoint);
 };
 
-/// The motion on a rig that is the same skeleton: copies local rotations, and scales the root's
+/// Poses a rig that is the motion's skeleton: copies local rotations, and scales the root's
 /// positions to the rig's unit.
-/// \param motion with rotations relative to its own zero pose
-/// \param rig at rest
-/// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
-/// \param same the relation of both skeletons
-/// \param offset set to the offset of the scaled root motion
-Clip copyRotations(const Motion& motion, const RestSkeleton& rig,
-                   const std::vector<int>& motionJoint, const SameSkeleton& same,
-                   glm::dvec3& offset);
+class RotationCopy {
+public:
+    /// \param motion skeleton in its zero pose; it must outlive this, as the others
+    /// \param rig at rest
+    /// \param motionJoint [rig joint] which joint of the motion drives it, -1 for none
+    /// \param same the relation of both skeletons
+    RotationCopy(const RestSkeleton& motion, const RestSkeleton& rig,
+                 const std::vector<int>& motionJoint, const SameSkeleton& same);
+
+    /// \param local rotations of the motion's joints
+    /// \param root position of its root
+    /// \param rotations set to the rig's local ones, [rig joint]
+    /// \return the position of the rig's root
+    glm::dvec3 pose(const glm::dquat* local, const glm::dvec3& root, glm::dquat* rotations);
+
+    const glm::dvec3& offset() const { return _offset; } ///< of the scaled root motion
+
+private:
+    std::size_t driver() const { return static_cast<std::size_t>(_motionJoint[_first]); }
+
+    const RestSkeleton &_motion, &_rig;
+    const std::vector<int>& _motionJoint;
+    const SameSkeleton& _same;
+    std::size_t _first = 0; ///< the rig's joint that the root motion moves
+    glm::dvec3 _offset{0.0};
+    std::vector<glm::dquat> _motionWorld, _world;
+    std::vector<glm::dvec3> _motionPositions, _positions;
+};
+
+/// A pose of a skeleton, from which rotations are counted in place of its zero pose.
+struct ZeroPose {
+    std::vector<glm::dquat> world; ///< rotations of the joints there, from the zero pose
+    glm::dvec3 root;               ///< position of the root joint there
+
+    /// The skeleton in that pose.
+    RestSkeleton applyTo(const RestSkeleton& skeleton) const;
+};
 
 /// The pose that a motion's rotations are made relative to, so that they can be applied to another
 /// body: one in which its actor stands.
 struct StandingPose {
-    /// The motion relative to that pose; nothing where its own zero pose serves.
-    std::optional<Motion> counted;
+    std::optional<ZeroPose> counted; ///< nothing where the motion's own zero pose serves
 
     /// Set where the rig is the motion's skeleton and neither rests standing: local rotations are
     /// copied.

@@ -71,17 +71,20 @@ RootPath::RootPath(const RetargetTarget& body, std::optional<double> bodyScale)
     _offset = body.rig.centre(_rigHips) - _scale * body.motion.centre(_motionHips);
 }
 
+glm::dvec3 RootPath::place(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
+                           const std::vector<glm::dquat>& rigWorld) {
+    worldPositions(_body.motion.rest(), motionWorld, motionRoot, _motionPositions);
+    _hips = _scale * _motionPositions[static_cast<std::size_t>(_motionHips)] + _offset;
+    worldPositions(_body.rig.rest(), rigWorld, glm::dvec3(0.0), _rigPositions);
+    const glm::dvec3 root = _hips - _rigPositions[static_cast<std::size_t>(_rigHips)];
+    for (glm::dvec3& position : _rigPositions) position += root;
+    return root;
+}
+
 void RootPath::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& motionWorld,
                    const std::vector<glm::dquat>& rigWorld) {
-    worldPositions(_body.motion.rest(), motionWorld, motionRoot, _motionPositions);
-    const glm::dvec3 hips =
-        _scale * _motionPositions[static_cast<std::size_t>(_motionHips)] + _offset;
-
-    if (_roots.empty()) _start = hips - _body.rig.centre(_rigHips);
-
-    worldPositions(_body.rig.rest(), rigWorld, glm::dvec3(0.0), _rigPositions);
-    const glm::dvec3 root = hips - _rigPositions[static_cast<std::size_t>(_rigHips)];
-    for (glm::dvec3& position : _rigPositions) position += root;
+    const glm::dvec3 root = place(motionRoot, motionWorld, rigWorld);
+    if (_roots.empty()) _start = _hips - _body.rig.centre(_rigHips);
     _roots.push_back(root);
     if (!_body.rigParts.feet.empty()) _feet.push_back(lowestFoot(rigWorld));
 }

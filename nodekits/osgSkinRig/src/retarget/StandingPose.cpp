@@ -21,39 +21,21 @@
 #include <vector>
 
 namespace osgSkin {
-namespace {
 
-/// The same motion with its rotations relative to another pose, which becomes its skeleton's zero
-/// pose.
-/// \param motion as it is
-/// \param world rotations of its joints in that pose, from its zero pose, one for each
-/// \param root position of the root joint there
-Motion rebasedFrom(const Motion& motion, const std::vector<glm::dquat>& world,
-                   const glm::dvec3& root) {
-    Motion result = motion;
+RestSkeleton ZeroPose::applyTo(const RestSkeleton& skeleton) const {
+    RestSkeleton result = skeleton;
     std::vector<glm::dvec3> positions;
-    worldPositions(motion.skeleton, world, root, positions);
+    worldPositions(skeleton, world, root, positions);
     for (std::size_t j = 0; j < world.size(); ++j) {
-        RestJoint& joint = result.skeleton.joints[j];
+        RestJoint& joint = result.joints[j];
         if (joint.tip) joint.tip = positions[j] + world[j] * (*joint.tip - joint.centre);
         joint.centre = positions[j];
         joint.frame = glm::normalize(world[j] * joint.frame);
     }
-    std::vector<glm::dquat> turned;
-    for (std::size_t f = 0; f < motion.frames; ++f) {
-        worldRotations(motion.skeleton, &motion.rotation(f, 0), turned);
-        for (std::size_t j = 0; j < world.size(); ++j)
-            turned[j] = glm::normalize(turned[j] * glm::conjugate(world[j]));
-        for (std::size_t j = 0; j < world.size(); ++j) {
-            const int parent = result.skeleton.joints[j].parent;
-            result.rotations[f * world.size() + j] =
-                parent < 0
-                    ? turned[j]
-                    : glm::normalize(glm::conjugate(turned[std::size_t(parent)]) * turned[j]);
-        }
-    }
     return result;
 }
+
+namespace {
 
 constexpr std::size_t kMinBones = 5; ///< that must agree for two skeletons to be the same
 constexpr double kTolerance = 0.02; ///< sum of the bones' differences over the sum of their lengths
@@ -150,40 +132,30 @@ std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const Re
     return result;
 }
 
-Clip copyRotations(const Motion& motion, const RestSkeleton& rig,
-                   const std::vector<int>& motionJoint, const SameSkeleton& same,
-                   glm::dvec3& offset) {
-    std::size_t first = 0; // the joint that the root motion moves
-    while (motionJoint[first] < 0) ++first;
-    const auto driver = static_cast<std::size_t>(motionJoint[first]);
-    offset = rig.joints[first].centre - same.scale * motion.skeleton.joints[driver].centre;
+RotationCopy::RotationCopy(const RestSkeleton& motion, const RestSkeleton& rig,
+                           const std::vector<int>& motionJoint, const SameSkeleton& same)
+    : _motion(motion), _rig(rig), _motionJoint(motionJoint), _same(same) {
+    while (motionJoint[_first] < 0) ++_first;
+    _offset = rig.joints[_first].centre - same.scale * motion.joints[driver()].centre;
+}
 
-    Clip clip;
-    clip.name = motion.name;
-    clip.frameTime = motion.frameTime;
-    clip.frames = motion.frames;
-    clip.joints = rig.joints.size();
-    std::vector<glm::dquat> motionWorld, world(clip.joints);
-    std::vector<glm::dvec3> motionPositions, positions;
-    for (std::size_t f = 0; f < motion.frames; ++f) {
-        worldRotations(motion.skeleton, &motion.rotation(f, 0), motionWorld);
-        for (std::size_t j = 0; j < clip.joints; ++j) {
-            const int parent = rig.joints[j].parent;
-            const glm::dquat above = parent < 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0)
-                                                : world[static_cast<std::size_t>(parent)];
-            world[j] = above;
-            if (motionJoint[j] >= 0) {
-                const auto m = static_cast<std::size_t>(motionJoint[j]);
-                world[j] = glm::normalize(motionWorld[m] * glm::conjugate(same.toRigRest[m]));
-            }
-            clip.rotations.push_back(glm::normalize(glm::conjugate(above) * world[j]));
+glm::dvec3 RotationCopy::pose(const glm::dquat* local, const glm::dvec3& root,
+                              glm::dquat* rotations) {
+    worldRotations(_motion, local, _motionWorld);
+    _world.resize(_rig.joints.size());
+    for (std::size_t j = 0; j < _world.size(); ++j) {
+        const int parent = _rig.joints[j].parent;
+        const glm::dquat above = parent < 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0) : _world[at(parent)];
+        _world[j] = above;
+        if (_motionJoint[j] >= 0) {
+            const std::size_t m = at(_motionJoint[j]);
+            _world[j] = glm::normalize(_motionWorld[m] * glm::conjugate(_same.toRigRest[m]));
         }
-        worldPositions(motion.skeleton, motionWorld, motion.rootPositions[f], motionPositions);
-        worldPositions(rig, world, glm::dvec3(0.0), positions);
-        clip.rootPositions.push_back(same.scale * motionPositions[driver] + offset -
-                                     positions[first]);
+        rotations[j] = glm::normalize(glm::conjugate(above) * _world[j]);
     }
-    return clip;
+    worldPositions(_motion, _motionWorld, root, _motionPositions);
+    worldPositions(_rig, _world, glm::dvec3(0.0), _positions);
+    return _same.scale * _motionPositions[driver()] + _offset - _positions[_first];
 }
 
 namespace {
@@ -355,18 +327,18 @@ public:
         return result;
     }
 
-    /// The motion relative to a sample, which is rotated upright if the actor lies in it.
+    /// A sample's pose, rotated upright if the actor lies in it.
     /// \param up axis, 0 if unknown
-    Motion fromSample(const Sample& sample, int up) {
+    ZeroPose fromSample(const Sample& sample, int up) {
         pose(sample.frame);
         return from(sample.posture, sample.axis == 0 ? 0 : up, _motion.rootPositions[sample.frame]);
     }
 
-    /// The motion relative to its zero pose, rotated upright, with the trunk over the legs.
+    /// The zero pose, rotated upright, with the trunk over the legs.
     /// \param zero its posture
     /// \param roles of the motion's joints
     /// \param up axis, 0 if unknown
-    Motion fromZero(const Posture& zero, const JointRoles& roles, int up) {
+    ZeroPose fromZero(const Posture& zero, const JointRoles& roles, int up) {
         const RestSkeleton& skeleton = _motion.skeleton;
         const int legs[] = {roles.joints.at("LeftUpperLeg").front(),
                             roles.joints.at("RightUpperLeg").front()};
@@ -388,8 +360,8 @@ public:
     }
 
 private:
-    /// The motion relative to the pose in `_world`, with the hips above the origin.
-    Motion from(const Posture& posture, int up, glm::dvec3 root) {
+    /// The pose in `_world`, with the hips above the origin.
+    ZeroPose from(const Posture& posture, int up, glm::dvec3 root) {
         const int own = nearAxis(posture.up);
         glm::dvec3 axis = own == 0 ? posture.up : alongAxis(own), hips = posture.hips;
         if (up != 0 && up != own) {
@@ -399,7 +371,7 @@ private:
             hips = turn * hips;
             root = turn * root;
         }
-        return rebasedFrom(_motion, _world, root - (hips - glm::dot(hips, axis) * axis));
+        return {_world, root - (hips - glm::dot(hips, axis) * axis)};
     }
 
     void pose(std::size_t frame) {
@@ -453,10 +425,9 @@ int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<P
 /// Where the skeletons are the same, the motion's rotations are made relative to the rig's rest
 /// pose.
 /// \param isStated whether the caller says which axis is up
-void countFromRig(const Motion& motion, const RestSkeleton& rig,
-                  const std::vector<int>& motionJoint, const SameSkeleton& same,
-                  const std::optional<Posture>& rest, const std::optional<Posture>& zero, int up,
-                  bool isStated, StandingPose& result) {
+void countFromRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
+                  const SameSkeleton& same, const std::optional<Posture>& rest,
+                  const std::optional<Posture>& zero, int up, bool isStated, StandingPose& result) {
     if (!rest || !rest->stands()) {
         result.copied = same;
         result.notes.emplace_back("the rig has the motion's joints and rests in no standing pose: "
@@ -476,7 +447,7 @@ void countFromRig(const Motion& motion, const RestSkeleton& rig,
     for (std::size_t j = 0; j < rig.joints.size(); ++j)
         if (motionJoint[j] == 0) root = j;
     const glm::dvec3 place = turn * rig.joints[root].centre / same.scale;
-    result.counted = rebasedFrom(motion, world, place);
+    result.counted = ZeroPose{std::move(world), place};
     result.notes.emplace_back("the rig has the motion's joints: local rotations are copied");
 }
 
@@ -504,7 +475,7 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     if (rigJoints.complete()) {
         const std::optional<Posture> rest = rigJoints.measure(centresOf(rig));
         if (same) {
-            countFromRig(motion, rig, map.motionJoint, *same, rest, zero, up, isStated, result);
+            countFromRig(rig, map.motionJoint, *same, rest, zero, up, isStated, result);
             return result;
         }
         if (!rest || !rest->stands())
