@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Recipes.h"
 #include "Ground.h"
+#include "Performer.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkinCharacter/LoadCharacter>
@@ -143,6 +144,9 @@ const std::vector<Recipe>& recipes() {
          false,
          {},
          true},
+#ifdef OSGSKIN_LIBLO
+        {"receivePoses", perform, "walker.skin", 0.4, kFigure, Floor::Shadowed, false, {}, true},
+#endif
         {"attachSword",
          attachSword,
          "walker.skin",

@@ -420,10 +420,10 @@ void ClipCharacter::bake(const SampledClip* clip) {
     _bakedBounds = bounds;
 }
 
-osg::ref_ptr<ClipPlayer> ClipCharacter::makeBonePlayer() {
+osg::ref_ptr<ClipPlayer> ClipCharacter::makeBonePlayer(osg::ref_ptr<ClipPlayer> player) {
     ManagerRemover remover;
     _character->accept(remover);
-    osg::ref_ptr<ClipPlayer> player = new ClipPlayer;
+    if (!player) player = new ClipPlayer;
     player->setRoot(ClipPlayer::Root::Moving, upOf(_toWorld));
     player->addBones(_skeleton);
     player->setNestedCallback(_character->getUpdateCallback());
