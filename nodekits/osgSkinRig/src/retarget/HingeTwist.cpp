@@ -181,6 +181,7 @@ std::vector<std::size_t> HingeTwist::share(Clip& clip) const {
         glm::dvec3 shift; // of the middle angles to within half a turn of 0
         for (int i = 0; i < 3; ++i) {
             std::vector<double> sorted;
+            sorted.reserve(twists.size());
             for (const glm::dvec3& each : twists) sorted.push_back(each[i]);
             const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
             std::nth_element(sorted.begin(), middle, sorted.end());
