@@ -13,6 +13,7 @@
 
 #include <osg/GLExtensions>
 #include <osg/MatrixTransform>
+#include <osg/Texture2D>
 #include <osgDB/ReadFile>
 #include <osgUtil/GLObjectsVisitor>
 #include <osgViewer/Viewer>
@@ -98,6 +99,27 @@ double median(std::vector<double> times) {
     return times[times.size() / 2];
 }
 
+/// A scene that other cameras with the same view draw first, as shadow maps do.
+osg::ref_ptr<osg::Group> inPasses(osg::Node& scene, int passes) {
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (int i = 1; i < passes; ++i) {
+        const osg::ref_ptr<osg::Texture2D> depth = new osg::Texture2D;
+        depth->setTextureSize(1024, 1024);
+        depth->setInternalFormat(GL_DEPTH_COMPONENT);
+        const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+        camera->setReferenceFrame(osg::Transform::RELATIVE_RF);
+        camera->setViewport(0, 0, 1024, 1024);
+        camera->setClearMask(GL_DEPTH_BUFFER_BIT);
+        camera->setRenderOrder(osg::Camera::PRE_RENDER);
+        camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+        camera->attach(osg::Camera::DEPTH_BUFFER, depth);
+        camera->addChild(&scene);
+        root->addChild(camera);
+    }
+    root->addChild(&scene);
+    return root;
+}
+
 /// The median of 30 frames, or of as many as five seconds allow.
 double timeFrames(osg::Node& scene, double extent, const std::function<void(double)>& update) {
     Stage stage(scene, extent);
@@ -113,8 +135,9 @@ double timeFrames(osg::Node& scene, double extent, const std::function<void(doub
     return median(times);
 }
 
-osg::ref_ptr<osg::Node> load(const std::string& file) {
-    osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
+osg::ref_ptr<osg::Node> load(const std::string& file, const std::string& options = {}) {
+    osg::ref_ptr<osg::Node> scene =
+        osgDB::readRefNodeFile(file, osg::ref_ptr<osgDB::Options>(new osgDB::Options(options)));
     if (!scene) throw std::runtime_error(file + ": expected a character");
     return scene;
 }
@@ -143,7 +166,8 @@ void benchFirstFrame(const char* name, const std::string& file,
                 first[0], first[1], later);
 }
 
-void benchCrowd(osgSkin::CrowdCharacter& character, std::size_t count) {
+void benchCrowd(osgSkin::CrowdCharacter& character, const char* what, std::size_t count, int passes,
+                std::size_t maxTriangles = 0) {
     const osg::BoundingSphere sphere(character.bounds());
     const double spacing = spacingOf(sphere);
     std::vector<osgSkin::CrowdInstance> members(count);
@@ -154,11 +178,13 @@ void benchCrowd(osgSkin::CrowdCharacter& character, std::size_t count) {
     }
     const osg::ref_ptr<osgSkin::GpuCrowd> crowd = new osgSkin::GpuCrowd(&character);
     crowd->setInstances(members);
+    crowd->setMaxTriangles(maxTriangles);
     const double extent = 0.5 * spacing * std::sqrt(double(count));
-    const double took =
-        timeFrames(*crowd, extent, [&](double seconds) { crowd->setTime(seconds); });
-    std::printf("crowd of %7zu     %9.2f ms  %8.4f us a member\n", count, took,
-                1000.0 * took / double(count));
+    const double took = timeFrames(*inPasses(*crowd, passes), extent,
+                                   [&](double seconds) { crowd->setTime(seconds); });
+    std::printf("crowd of %7zu, %s, %d %s %9.2f ms  %8.4f us a member\n", count, what, passes,
+                passes == 1 ? "pass  " : "passes", took, 1000.0 * took / double(count));
+    std::fflush(stdout);
 }
 
 /// The largest skin of each child.
@@ -216,7 +242,7 @@ void benchSingles(const std::string& file, std::size_t count) {
 } // namespace
 
 void benchFrames(const std::string& file, const std::vector<std::size_t>& crowds,
-                 std::size_t singles) {
+                 std::size_t maxTriangles, std::size_t singles) {
     {
         const osg::ref_ptr<test::EglWindow> window = new test::EglWindow(16, 16);
         if (!window->valid() || !window->realize() || !window->makeCurrent())
@@ -228,15 +254,21 @@ void benchFrames(const std::string& file, const std::vector<std::size_t>& crowds
         window->releaseContext();
     }
     const osg::ref_ptr<osg::Node> loaded = load(file);
+    const osg::ref_ptr<osg::Node> plain = load(file, "shapes=none normals=rotated");
     for (const std::size_t count : crowds) {
         const auto character = osgSkin::CrowdCharacter::create(*loaded);
+        const auto without = osgSkin::CrowdCharacter::create(*plain);
         if (count == crowds.front()) {
             std::printf("triangles of a member:");
             for (std::size_t level = 0; level < character->levelCount(); ++level)
                 std::printf(" %zu", character->triangleCount(level));
             std::printf("\n");
         }
-        benchCrowd(*character, count);
+        for (const int passes : {1, 4}) {
+            benchCrowd(*character, "with correctives", count, passes);
+            benchCrowd(*without, "without         ", count, passes);
+        }
+        if (maxTriangles > 0) benchCrowd(*character, "limited         ", count, 1, maxTriangles);
     }
     if (singles > 0) benchSingles(file, singles);
     benchFirstFrame("a character", file, [&] {

@@ -280,13 +280,15 @@ int main(int argc, char** argv) {
     GLuint wanted = 500000;
     bool frames = false;
     std::vector<std::size_t> crowds = {1000, 10000, 100000};
-    std::size_t singles = 100;
+    std::size_t maxTriangles = 0, singles = 100;
     line.add("character", file, "any file with a deformable skin").showDefault();
     line.add("vertices", wanted, "how many vertices to deform").showDefault();
     const auto whole =
         line.add("--draw", frames, "draw whole frames of 1920 x 1080 pixels instead");
     line.add("--crowd", crowds, "members of the crowds, one crowd after the other")
         .range(1, 10000000)
+        .needs(whole);
+    line.add("--max-triangles", maxTriangles, "draw the crowds once more with this limit; 0: none")
         .needs(whole);
     line.add("--single", singles,
              "characters that are loaded one by one, drawn with and without the card; 0: none")
@@ -295,7 +297,7 @@ int main(int argc, char** argv) {
     return line.run(argc, argv, [&] {
         line.parse(argc, argv);
         if (frames) {
-            benchFrames(file, crowds, singles);
+            benchFrames(file, crowds, maxTriangles, singles);
             return 0;
         }
         const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);

@@ -125,6 +125,7 @@ CrowdDraws::Draw CrowdDraws::makeDraw(const CrowdCharacter& character,
     const osg::ref_ptr<osg::StateSet> own =
         part.joint >= 0 && part.rest->getStateSet() != part.state ? part.rest->getStateSet()
                                                                   : nullptr;
+    if (!character.hasCorrectives(level)) state->setDefine("OSGSKIN_PLAIN");
     if (character.isFar(level)) state->setDefine("OSGSKIN_FAR");
     if (hasTexture(part.state) || hasTexture(own)) state->setDefine("OSGSKIN_TEXTURE");
     geometry->setStateSet(state);

@@ -157,11 +157,17 @@ void main() {
 }
 )";
 
-// The size of a character is its sphere's radius in the picture, in half picture heights.
+// The size of a character is its sphere's radius in the picture, in half picture heights. Levels as
+// CrowdLevels has them.
 const char* const kCull = R"(#version 430
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer OsgSkinCommands { uint osgSkinCommands[]; };
 layout(std430, binding = 1) writeonly buffer OsgSkinList { uint osgSkinList[]; };
+layout(std430, binding = 2) buffer OsgSkinFit {
+  uint osgSkinFit;       // 256 less the steps that sizes are raised by
+  uint osgSkinAsIs[8];   // members of each level without a limit
+  uint osgSkinBins[256]; // members of each bin of sizes
+};
 uniform usamplerBuffer osgSkinInstances;
 uniform vec4 osgSkinPlanes[4];
 uniform vec4 osgSkinSphere;    // of a character in its own space: centre and radius
@@ -169,9 +175,49 @@ uniform vec4 osgSkinEye;       // and the size of radius 1 at distance 1
 uniform int osgSkinIsFlat;     // orthographic
 uniform ivec4 osgSkinCounts;   // instances, levels, parts, list entries per level
 uniform float osgSkinSizes[8]; // below which each level is drawn
+uniform int osgSkinStep;       // see CullStep
+uniform uint osgSkinMaxTriangles; // 0: no limit
+uniform uint osgSkinTriangles[8]; // of a member in each level
+
+int osgSkin_bin(float size) {
+  return clamp((floatBitsToInt(size) >> 19) - 1840, 0, 255);
+}
+
+int osgSkin_level(float size, int bin, int steps) {
+  int level = 0;
+  while (level + 1 < osgSkinCounts.y &&
+         (steps == 0 ? size < osgSkinSizes[level + 1]
+                     : bin < osgSkin_bin(osgSkinSizes[level + 1]) + steps)) ++level;
+  return level;
+}
+
+/// Whether the limit has room for some members, which it then has no more.
+bool osgSkin_take(inout uint room, uint members, int level) {
+  uint each = osgSkinTriangles[level];
+  if (members == 0u || each == 0u) return true;
+  if (members > room / each) return false;
+  room -= members * each;
+  return true;
+}
+
+bool osgSkin_fits(int steps) {
+  uint room = osgSkinMaxTriangles;
+  if (steps == 0) {
+    for (int level = 0; level < osgSkinCounts.y; ++level)
+      if (!osgSkin_take(room, osgSkinAsIs[level], level)) return false;
+  } else {
+    for (int bin = 0; bin < 256; ++bin)
+      if (!osgSkin_take(room, osgSkinBins[bin], osgSkin_level(0.0, bin, steps))) return false;
+  }
+  return true;
+}
 
 void main() {
   int id = int(gl_GlobalInvocationID.x);
+  if (osgSkinStep == 2) {
+    if (osgSkin_fits(id)) atomicMax(osgSkinFit, 256u - uint(id));
+    return;
+  }
   if (id >= osgSkinCounts.x) return;
   vec4 place = uintBitsToFloat(texelFetch(osgSkinInstances, 4 * id));
   vec4 q = uintBitsToFloat(texelFetch(osgSkinInstances, 4 * id + 1));
@@ -182,8 +228,13 @@ void main() {
     if (dot(osgSkinPlanes[i].xyz, centre) + osgSkinPlanes[i].w < -radius) return;
   float size = radius * osgSkinEye.w;
   if (osgSkinIsFlat == 0) size /= max(distance(osgSkinEye.xyz, centre), 1e-6);
-  int level = 0;
-  while (level + 1 < osgSkinCounts.y && size < osgSkinSizes[level + 1]) ++level;
+  if (osgSkinStep == 1) {
+    atomicAdd(osgSkinAsIs[osgSkin_level(size, 0, 0)], 1u);
+    atomicAdd(osgSkinBins[osgSkin_bin(size)], 1u);
+    return;
+  }
+  int steps = osgSkinMaxTriangles == 0u ? 0 : 256 - int(osgSkinFit);
+  int level = osgSkin_level(size, osgSkin_bin(size), steps);
   uint slot = 0u;
   for (int part = 0; part < osgSkinCounts.z; ++part) {
     uint before = atomicAdd(osgSkinCommands[5 * (level * osgSkinCounts.z + part) + 1], 1u);
@@ -202,7 +253,7 @@ osg::ref_ptr<osg::Program> program(const char* name) {
 } // namespace
 
 std::string crowdText() {
-    return "#version 330\n#pragma import_defines(OSGSKIN_FAR)\n#pragma requires(OSGSKIN)\n" +
+    return "#version 330\n#pragma import_defines(OSGSKIN_PLAIN)\n#pragma requires(OSGSKIN)\n" +
            deformText() + kInstances + kBlend;
 }
 

@@ -13,7 +13,11 @@ namespace osgSkin {
 enum CrowdUnit { kCrowdModelUnit = 10, kCrowdClipUnit, kCrowdInstanceUnit, kCrowdVisibleUnit };
 
 /// Buffer indices of cullProgram().
-enum CullBuffer { kCommandBuffer, kVisibleBuffer };
+enum CullBuffer { kCommandBuffer, kVisibleBuffer, kFitBuffer };
+
+/// What a dispatch of cullProgram() does: the first two find how far the sizes of levels are raised
+/// for a limit of triangles.
+enum CullStep { kListMembers, kCountSizes, kFitLevels };
 
 constexpr unsigned int kMaxLevels = 8;
 

@@ -3,6 +3,7 @@
 
 #include "crowd/CrowdDraws.h"
 #include "crowd/CrowdText.h"
+#include "crowd/CrowdView.h"
 #include "model/PackTexels.h"
 #include "skin/ComputeStage.h"
 
@@ -19,16 +20,19 @@
 #include <osgUtil/IncrementalCompileOperation>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <mutex>
 #include <utility>
 #include <vector>
 
 #ifndef GL_COMMAND_BARRIER_BIT
 #define GL_COMMAND_BARRIER_BIT 0x00000040
+#endif
+#ifndef GL_SHADER_STORAGE_BARRIER_BIT
+#define GL_SHADER_STORAGE_BARRIER_BIT 0x00002000
 #endif
 #ifndef GL_TEXTURE_FETCH_BARRIER_BIT
 #define GL_TEXTURE_FETCH_BARRIER_BIT 0x00000008
@@ -160,60 +164,18 @@ private:
     osg::BoundingBox _box;
 };
 
-/// A camera's view in the crowd's space: the four side planes, without near and far, which depend
-/// on what is seen.
-struct CrowdView {
-    CrowdView(const osg::Matrixd& modelView, const osg::Matrixd& projection) {
-        const osg::Matrixd clip = modelView * projection;
-        for (unsigned int i = 0; i < planes.size(); ++i) {
-            const int axis = static_cast<int>(i / 2);
-            const double sign = i % 2 == 0 ? 1.0 : -1.0;
-            osg::Vec4d plane;
-            for (int row = 0; row < 4; ++row)
-                plane[static_cast<unsigned int>(row)] = clip(row, 3) + sign * clip(row, axis);
-            const double length = osg::Vec3d(plane.x(), plane.y(), plane.z()).length();
-            planes[i] = length > 0.0 ? plane / length : osg::Vec4d(0, 0, 0, 1);
-        }
-        eye = osg::Matrixd::inverse(modelView).getTrans();
-        sizeAtOne = static_cast<float>(std::abs(projection(1, 1)));
-        isFlat = projection(3, 3) != 0.0;
-    }
-
-    std::array<osg::Vec4f, 4> planes; ///< inside: x a + y b + z c + d >= 0; unit normals
-    osg::Vec3f eye;
-    float sizeAtOne; ///< of a sphere of radius 1 at distance 1, in half heights of the picture
-    bool isFlat;     ///< orthographic: the size does not depend on the distance
-
-    bool sees(const osg::Vec4f& sphere) const {
-        return std::all_of(planes.begin(), planes.end(), [&](const osg::Vec4f& plane) {
-            return plane.x() * sphere.x() + plane.y() * sphere.y() + plane.z() * sphere.z() +
-                       plane.w() >=
-                   -sphere.w();
-        });
-    }
-    /// The level of detail in which a sphere is drawn.
-    /// \param sizes of the levels; the first is infinite
-    std::size_t levelOf(const osg::Vec4f& sphere, const std::vector<float>& sizes) const {
-        float size = sphere.w() * sizeAtOne;
-        const osg::Vec3f centre(sphere.x(), sphere.y(), sphere.z());
-        if (!isFlat) size /= std::max((eye - centre).length(), 1e-6f);
-        std::size_t level = 0;
-        while (level + 1 < sizes.size() && size < sizes[level + 1]) ++level;
-        return level;
-    }
-};
-
 /// Draws of a crowd culled on the processor: one set of draws for each cull, kept until drawn.
 class ListedDraws {
 public:
     /// \param character must outlive this, as must the members
     ListedDraws(const CrowdCharacter& character, const CrowdMembers& members)
-        : _character(character), _members(members) {}
+        : _character(character), _members(members), _levels(character) {}
 
     /// Lists the visible members and adds their draws to a cull; thread-safe.
-    void cull(osgUtil::CullVisitor& cv) {
+    /// \param maxTriangles 0: no limit
+    void cull(osgUtil::CullVisitor& cv, unsigned int maxTriangles) {
         Listed& listed = take();
-        list(CrowdView(*cv.getModelViewMatrix(), *cv.getProjectionMatrix()), listed.draws);
+        list(CrowdView(*cv.getModelViewMatrix(), *cv.getProjectionMatrix()), maxTriangles, listed);
         listed.draws.setBound(_members.box());
         listed.draws.cull(cv);
         const std::lock_guard<std::mutex> lock(_mutex);
@@ -232,6 +194,8 @@ private:
     struct Listed {
         CrowdDraws draws;
         bool isTaken; ///< by a cull that is still adding them
+        std::vector<GLuint> seen;
+        std::vector<float> sizes; ///< of those, see CrowdView::sizeOf()
     };
 
     Listed& take() {
@@ -241,26 +205,34 @@ private:
                 old->isTaken = true;
                 return *old;
             }
-        _all.push_back(std::make_unique<Listed>(
-            Listed{CrowdDraws(_character, _members.size(), CrowdDraws::Count::Direct), true}));
+        _all.push_back(std::make_unique<Listed>(Listed{
+            CrowdDraws(_character, _members.size(), CrowdDraws::Count::Direct), true, {}, {}}));
         return *_all.back();
     }
-    void list(const CrowdView& view, CrowdDraws& draws) const {
+    void list(const CrowdView& view, unsigned int maxTriangles, Listed& listed) const {
         const std::vector<osg::Vec4f>& spheres = _members.spheres();
-        std::vector<std::size_t> counts(_character.levelCount(), 0);
-        osg::UIntArray& places = draws.list();
+        listed.seen.clear();
+        listed.sizes.clear();
         for (std::size_t i = 0; i < spheres.size(); ++i) {
             if (!view.sees(spheres[i])) continue;
-            const std::size_t level = view.levelOf(spheres[i], _character.levelSizes());
-            places[level * spheres.size() + counts[level]++] = static_cast<GLuint>(i);
+            listed.seen.push_back(static_cast<GLuint>(i));
+            listed.sizes.push_back(view.sizeOf(spheres[i]));
+        }
+        const int steps = maxTriangles > 0 ? _levels.stepsFor(listed.sizes, maxTriangles) : 0;
+        std::vector<std::size_t> counts(_character.levelCount(), 0);
+        osg::UIntArray& places = listed.draws.list();
+        for (std::size_t i = 0; i < listed.seen.size(); ++i) {
+            const std::size_t level = _levels.levelOf(listed.sizes[i], steps);
+            places[level * spheres.size() + counts[level]++] = listed.seen[i];
         }
         places.dirty();
         for (std::size_t level = 0; level < counts.size(); ++level)
-            draws.setCount(level, counts[level]);
+            listed.draws.setCount(level, counts[level]);
     }
 
     const CrowdCharacter& _character;
     const CrowdMembers& _members;
+    CrowdLevels _levels;
     std::mutex _mutex;
     std::vector<std::unique_ptr<Listed>> _all;
 };
@@ -271,7 +243,8 @@ class CrowdCull : public osg::Drawable {
 public:
     CrowdCull(const CrowdCharacter& character, const CrowdDraws& draws,
               osg::TextureBuffer* instances)
-        : _commands(draws.commands()), _sizes(character.levelSizes()),
+        : _commands(draws.commands()), _levels(character),
+          _fit(new osg::UIntArray(1 + kMaxLevels + CrowdLevels::kBins)),
           _parts(static_cast<int>(character.parts().size())),
           _capacity(static_cast<int>(draws.list().size() / character.levelCount())),
           _state(new osg::StateSet) {
@@ -288,6 +261,10 @@ public:
         _state->setAttribute(new osg::ShaderStorageBufferBinding(kCommandBuffer, _commands), ours);
         _state->setAttribute(new osg::ShaderStorageBufferBinding(kVisibleBuffer, &draws.list()),
                              ours);
+        const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
+        buffer->setUsage(GL_DYNAMIC_COPY_ARB);
+        _fit->setVertexBufferObject(buffer);
+        _state->setAttribute(new osg::ShaderStorageBufferBinding(kFitBuffer, _fit), ours);
     }
 
     /// The most that one dispatch can test, in every driver.
@@ -297,6 +274,8 @@ public:
 
     /// Not while any thread draws; so setBounds().
     void setCount(std::size_t members) { _count = static_cast<int>(members); }
+    /// \param count 0: no limit
+    void setMaxTriangles(unsigned int count) { _maxTriangles = count; }
     /// \param bounds of a member, in its own space
     void setBounds(const osg::BoundingBox& bounds) {
         _sphere = osg::Vec4f(bounds.center(), bounds.radius());
@@ -318,10 +297,18 @@ public:
     void drawImplementation(osg::RenderInfo& renderInfo) const override;
 
 private:
+    /// Writes an array into its buffer of the current context, if there is one.
+    static bool reset(osg::State& state, const osg::BufferData& data);
+    void dispatch(const osg::GLExtensions& gl) const {
+        gl.glDispatchCompute((static_cast<GLuint>(_count) + kCullThreads - 1) / kCullThreads, 1, 1);
+    }
+
     osg::ref_ptr<osg::DefaultIndirectCommandDrawElements> _commands;
     osg::Vec4f _sphere;
-    std::vector<float> _sizes;
+    CrowdLevels _levels;
+    osg::ref_ptr<osg::UIntArray> _fit; ///< zeros; see the shader
     int _parts, _capacity, _count = 0;
+    std::atomic<unsigned int> _maxTriangles{0};
     osg::ref_ptr<osg::StateSet> _state;
 };
 
@@ -368,14 +355,8 @@ void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
         noteCannotCompute(state.getContextID());
         return;
     }
-    const osg::GLBufferObject* commands =
-        _commands->getBufferObject()->getGLBufferObject(state.getContextID());
-    if (!commands) return;
-    state.unbindVertexBufferObject();
-    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, commands->getGLObjectID());
-    gl.glBufferSubData(GL_ARRAY_BUFFER_ARB, 0, _commands->getTotalDataSize(),
-                       _commands->getDataPointer());
-    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
+    const unsigned int most = _maxTriangles;
+    if (!reset(state, *_commands) || (most > 0 && !reset(state, *_fit))) return;
 
     const CrowdView view(state.getModelViewMatrix(), state.getProjectionMatrix());
     const auto at = [&](const std::string& name) {
@@ -386,11 +367,37 @@ void CrowdCull::drawImplementation(osg::RenderInfo& renderInfo) const {
     gl.glUniform4fv(at("osgSkinSphere"), 1, _sphere.ptr());
     gl.glUniform4fv(at("osgSkinEye"), 1, osg::Vec4f(view.eye, view.sizeAtOne).ptr());
     gl.glUniform1i(at("osgSkinIsFlat"), view.isFlat ? 1 : 0);
-    const GLint counts[] = {_count, static_cast<GLint>(_sizes.size()), _parts, _capacity};
+    const std::vector<float>& sizes = _levels.sizes();
+    const auto levels = static_cast<GLsizei>(sizes.size());
+    const GLint counts[] = {_count, levels, _parts, _capacity};
     gl.glUniform4iv(at("osgSkinCounts"), 1, counts);
-    gl.glUniform1fv(at("osgSkinSizes"), static_cast<GLsizei>(_sizes.size()), _sizes.data());
-    gl.glDispatchCompute((static_cast<GLuint>(_count) + kCullThreads - 1) / kCullThreads, 1, 1);
+    gl.glUniform1fv(at("osgSkinSizes"), levels, sizes.data());
+    gl.glUniform1ui(at("osgSkinMaxTriangles"), most);
+    if (most > 0) {
+        gl.glUniform1uiv(at("osgSkinTriangles"), levels, _levels.triangles().data());
+        const GLint step = at("osgSkinStep");
+        gl.glUniform1i(step, kCountSizes);
+        dispatch(gl);
+        gl.glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        gl.glUniform1i(step, kFitLevels);
+        gl.glDispatchCompute(CrowdLevels::kBins / kCullThreads, 1, 1);
+        gl.glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        gl.glUniform1i(step, kListMembers);
+    }
+    dispatch(gl);
     gl.glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+bool CrowdCull::reset(osg::State& state, const osg::BufferData& data) {
+    const osg::GLBufferObject* buffer =
+        data.getBufferObject()->getGLBufferObject(state.getContextID());
+    if (!buffer) return false;
+    const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
+    state.unbindVertexBufferObject();
+    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, buffer->getGLObjectID());
+    gl.glBufferSubData(GL_ARRAY_BUFFER_ARB, 0, data.getTotalDataSize(), data.getDataPointer());
+    gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
+    return true;
 }
 
 } // namespace
@@ -420,6 +427,7 @@ struct GpuCrowd::Inside {
     double seconds = 0.0;
     osg::ref_ptr<osg::Uniform> time = new osg::Uniform("osgSkinTime", 0.0f);
     Culling culling = Culling::Automatic;
+    unsigned int maxTriangles = 0;
 
     void rebuild(const std::vector<CrowdInstance>& instances) {
         listed = nullptr;
@@ -430,6 +438,7 @@ struct GpuCrowd::Inside {
             std::make_shared<CrowdDraws>(*character, instances.size(), CrowdDraws::Count::Indirect);
         cull = new CrowdCull(*character, *indirect, members->texture());
         cull->setCount(instances.size());
+        cull->setMaxTriangles(maxTriangles);
         updateTime();
     }
 
@@ -472,6 +481,7 @@ GpuCrowd::GpuCrowd(const GpuCrowd& other, const osg::CopyOp& copyop)
     const Inside& from = *other._inside;
     _inside->character = from.character;
     _inside->culling = from.culling;
+    _inside->maxTriangles = from.maxTriangles;
     _inside->seconds = from.seconds;
     // Its members and their time are its own.
     setStateSet(new osg::StateSet(*other.getStateSet(), osg::CopyOp::SHALLOW_COPY));
@@ -517,6 +527,13 @@ void GpuCrowd::setCulling(Culling culling) {
     _inside->culling = culling;
 }
 
+void GpuCrowd::setMaxTriangles(std::size_t count) {
+    Inside& in = *_inside;
+    in.maxTriangles = static_cast<unsigned int>(
+        std::min<std::size_t>(count, std::numeric_limits<unsigned int>::max()));
+    if (in.cull) in.cull->setMaxTriangles(in.maxTriangles);
+}
+
 void GpuCrowd::traverse(osg::NodeVisitor& nv) {
     osgUtil::CullVisitor* cv = nv.asCullVisitor();
     Inside& in = *_inside;
@@ -545,7 +562,7 @@ void GpuCrowd::traverse(osg::NodeVisitor& nv) {
         addToStage(*cv, *in.cull, in.cull->state());
         in.indirect->cull(*cv);
     } else {
-        in.listed->cull(*cv);
+        in.listed->cull(*cv, in.maxTriangles);
     }
 }
 

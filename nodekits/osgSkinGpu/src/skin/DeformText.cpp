@@ -105,8 +105,8 @@ void osgSkin_deform(int vertex, out vec3 position, out vec3 normal, inout vec3 t
   uvec4 a = osgSkin_words(int(head.y) + 2 * vertex);
   uvec4 b = osgSkin_words(int(head.y) + 2 * vertex + 1);
   uvec4 chain = osgSkin_words(int(a.w));
-#ifdef OSGSKIN_FAR
-  chain.z = 0u; // neither correctives nor gradients: they would not be seen
+#ifdef OSGSKIN_PLAIN
+  chain.z = 0u; // neither correctives nor gradients
 #endif
   int links = int(chain.y);
   vec3 x = uintBitsToFloat(a.xyz); // from the first link's centre
