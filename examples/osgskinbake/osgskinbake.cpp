@@ -18,6 +18,7 @@
 #include <osgSkin/SetMorph>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinRig/FaceNames>
 
 #include <nlohmann/json.hpp>
 #include <osg/NodeVisitor>
@@ -440,6 +441,25 @@ Character load(Arguments& arguments) {
     return character;
 }
 
+/// Prints how many names of other tools move the face.
+void listFace(const std::vector<std::string>& morphs) {
+    std::cout << "face: names of other tools that move it\n";
+    for (const auto& [title, vocabulary] : {std::pair("ARKit", osgSkin::FaceVocabulary::ArKit),
+                                            std::pair("visemes", osgSkin::FaceVocabulary::Visemes),
+                                            std::pair("VRM", osgSkin::FaceVocabulary::Vrm)}) {
+        const auto matches = osgSkin::matchFace(osgSkin::faceNames(vocabulary), morphs);
+        std::size_t found = 0;
+        std::string missing;
+        for (const osgSkin::FaceMatch& match : matches) {
+            const bool moves = match.kind != osgSkin::FaceMatch::Kind::None;
+            found += moves;
+            if (!moves) missing += (missing.empty() ? ", not " : ", ") + match.name;
+        }
+        std::cout << "  " << std::setw(18) << title << ' ' << found << " of " << matches.size()
+                  << (2 * found < matches.size() ? "" : missing) << '\n';
+    }
+}
+
 /// Prints what a character can be told to do: its joints and their roles, its clips, morph targets
 /// and muscles.
 void list(const Character& character) {
@@ -456,6 +476,7 @@ void list(const Character& character) {
     std::cout << "morph targets\n";
     for (const std::string& name : character.morphs())
         std::cout << "  " << osgSkin::onOneLine(name) << '\n';
+    if (!character.morphs().empty()) listFace(character.morphs());
     std::cout << "muscles\n";
     for (const std::string& name : character.binding.correctives.inputs)
         std::cout << "  " << osgSkin::onOneLine(name) << '\n';

@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkin/SetMorph>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinRig/FaceControls>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <stdexcept>
 
 namespace {
 
-/// Lets an expression come and go.
-struct Express : osg::NodeCallback {
-    explicit Express(const std::string& morph) : name(morph) {}
+/// Moves a face by ARKit's names, as a camera would, whatever the character calls its own targets.
+struct Live : osg::NodeCallback {
+    explicit Live(osg::Node& character) : face(character) {}
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        traverse(node, nv); // before: a clip may move the face, too
         const double time = nv->getFrameStamp()->getSimulationTime();
-        osgSkin::setMorph(*node, name, float(0.5 - 0.5 * std::cos(2.0 * time)));
-        traverse(node, nv);
+        const auto smile = float(0.5 - 0.5 * std::cos(2.0 * time));
+        face.set("mouthSmileLeft", smile);
+        face.set("mouthSmileRight", smile);
     }
-    std::string name;
+    osgSkin::FaceControls face;
 };
 
 } // namespace
 
-/// A face that smiles, or else shows its first expression.
+/// A face that smiles, a little surprised.
 osg::ref_ptr<osg::Node> makeFace(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
-    const std::vector<std::string> names = character.morphs();
-    if (names.empty()) throw std::runtime_error(file + ": has no morph targets");
-    for (const std::string& name : names) std::cout << name << '\n';
+    if (character.morphs().empty()) throw std::runtime_error(file + ": has no morph targets");
+    for (const std::string& name : character.morphs()) std::cout << name << '\n';
     character.setMorph("surprise", 0.3f); // stays until it is set again
-    const bool smiles = std::find(names.begin(), names.end(), "smile") != names.end();
-    character.root->addUpdateCallback(new Express(smiles ? "smile" : names.front()));
+    const osg::ref_ptr<Live> live = new Live(*character.root);
+    if (!live->face.set("mouthSmileLeft", 0.0f)) std::cout << "it cannot smile\n";
+    character.root->addUpdateCallback(live);
     return character.root;
 }

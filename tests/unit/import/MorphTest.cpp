@@ -10,6 +10,7 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportRig>
+#include <osgSkinRig/FaceNames>
 #include <osgSkinRig/Motion>
 
 #include <osgAnimation/Channel>
@@ -355,6 +356,8 @@ TEST(VrmExpressions, BecomeMorphTargets) {
         expectMoved(mesh, "happy", {{3, {0.25, 0.0, 0.0}}, {20, {0.0, 0.25, 0.125}}});
         expectMoved(mesh, "grin", {{3, {0.25, 0.0, 0.0}}});
         expectMoved(mesh, "happy.001", {{8, {0.0, 0.0, 1.0}}});
+        const auto joy = osgSkin::matchFace({"joy"}, namesOf(mesh)).at(0);
+        EXPECT_EQ(joy.parts.at(0).morphs.at(0), "happy") << "before the mesh's own";
         EXPECT_TRUE(notices.say("the first to \"happy.001\"")) << notices.text();
         EXPECT_TRUE(notices.say("1 expressions change colours or textures"));
         EXPECT_EQ(notices.lines(), 2u) << notices.text();

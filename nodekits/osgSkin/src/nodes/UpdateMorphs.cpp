@@ -26,19 +26,19 @@ public:
     std::vector<DeformableSkin*> skins;
 };
 
-std::vector<DeformableSkin*> skinsOf(const osg::Node& scene) {
+} // namespace
+
+std::vector<DeformableSkin*> morphSkins(const osg::Node& scene) {
     MorphSkins visitor;
     // Visitors take nodes that are not const; this one changes none.
     const_cast<osg::Node&>(scene).accept(visitor);
     return visitor.skins;
 }
 
-} // namespace
-
 std::vector<std::string> morphNames(const osg::Node& scene) {
     std::vector<std::string> result;
     std::set<std::string> known;
-    for (const DeformableSkin* skin : skinsOf(scene))
+    for (const DeformableSkin* skin : morphSkins(scene))
         for (const MorphTarget& target : skin->getMorphTargets()->targets())
             if (known.insert(target.name).second) result.push_back(target.name);
     return result;
@@ -46,12 +46,12 @@ std::vector<std::string> morphNames(const osg::Node& scene) {
 
 bool setMorph(osg::Node& scene, const std::string& name, float weight) {
     bool any = false;
-    for (DeformableSkin* skin : skinsOf(scene)) any = skin->setMorph(name, weight) || any;
+    for (DeformableSkin* skin : morphSkins(scene)) any = skin->setMorph(name, weight) || any;
     return any;
 }
 
 float getMorph(const osg::Node& scene, const std::string& name) {
-    for (const DeformableSkin* skin : skinsOf(scene))
+    for (const DeformableSkin* skin : morphSkins(scene))
         if (skin->getMorphTargets()->find(name) < skin->getMorphWeights().size())
             return skin->getMorph(name);
     return 0.0f;
@@ -73,7 +73,7 @@ bool UpdateMorphs::link(osgAnimation::Channel* channel) {
 
 void UpdateMorphs::findSkins(osg::Node& node) {
     _driven.clear();
-    for (DeformableSkin* skin : skinsOf(node))
+    for (DeformableSkin* skin : morphSkins(node))
         for (const auto& [name, weight] : _weights) {
             const std::size_t target = skin->getMorphTargets()->find(name);
             if (target < skin->getMorphWeights().size())

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "TubeSkin.h"
+
+#include <osgSkin/SetMorph>
+#include <osgSkinRig/FaceControls>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+using osgSkin::DeformableSkin;
+using osgSkin::FaceControls;
+using Names = std::vector<std::string>;
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+osg::ref_ptr<DeformableSkin> makeFaceSkin(const Names& names) {
+    osg::ref_ptr<DeformableSkin> skin = test::makeSkin();
+    std::vector<osgSkin::MorphTarget> targets;
+    for (const std::string& name : names)
+        targets.push_back({name, 0.0f, {0}, {{0.1f, 0.0f, 0.0f}}, {}, {}});
+    const std::size_t vertices = skin->getModel()->vertexCount();
+    skin->setMorphTargets(osgSkin::MorphTargets::create(targets, vertices));
+    return skin;
+}
+
+osg::ref_ptr<osg::Group> makeFace(const std::vector<Names>& skins) {
+    osg::ref_ptr<osg::Group> result = new osg::Group;
+    for (const Names& names : skins) result->addChild(makeFaceSkin(names));
+    return result;
+}
+
+const DeformableSkin& skinOf(const osg::Group& face, unsigned int index) {
+    return dynamic_cast<const DeformableSkin&>(*face.getChild(index));
+}
+
+using Floats = std::vector<float>;
+
+} // namespace
+
+TEST(FaceControls, MoveAllSkinsByTheirOwnNames) {
+    const auto face = makeFace({{"frown", "jawOpen"}, {"teeth.jawOpen"}, {"browDown"}});
+    FaceControls controls(*face, {"jawOpen"});
+    EXPECT_TRUE(controls.set("jawOpen", 0.4f));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.0f, 0.4f}));
+    EXPECT_EQ(skinOf(*face, 1).getMorphWeights(), Floats{0.4f});
+    EXPECT_EQ(skinOf(*face, 2).getMorphWeights(), Floats{0.0f});
+}
+
+TEST(FaceControls, SetAllNamesAtOnce) {
+    const auto face = makeFace({{"Blink", "smile", "scar"}});
+    osgSkin::setMorph(*face, "scar", 0.7f);
+    const Names& names = osgSkin::faceNames(osgSkin::FaceVocabulary::ArKit);
+    FaceControls controls(*face, names);
+    Floats weights(names.size(), 0.0f);
+    const auto set = [&](const std::string& name, float weight) {
+        weights[std::size_t(std::find(names.begin(), names.end(), name) - names.begin())] = weight;
+    };
+    set("eyeBlinkLeft", 1.0f);
+    set("mouthSmileLeft", 0.5f);
+    set("mouthSmileRight", 1.0f);
+    EXPECT_TRUE(controls.set(weights));
+    const Floats found = skinOf(*face, 0).getMorphWeights();
+    EXPECT_NEAR(found[0], 0.5f, 1e-6f);
+    EXPECT_NEAR(found[1], 0.75f, 1e-6f);
+    EXPECT_EQ(found[2], 0.7f) << "no name moves it";
+    EXPECT_TRUE(controls.set(Floats(names.size(), 0.0f)));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.0f, 0.0f, 0.7f}));
+    EXPECT_FALSE(controls.set(Floats(names.size() - 1, 1.0f)));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.0f, 0.0f, 0.7f}));
+}
+
+TEST(FaceControls, LimitSums) {
+    const auto face = makeFace({{"aa", "smile"}});
+    FaceControls controls(*face, {"jawOpen", "viseme_aa", "smile"});
+    EXPECT_TRUE(controls.set(Floats{0.75f, 0.75f, -3.0f}));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{1.0f, 0.0f}));
+    EXPECT_TRUE(controls.set(Floats{0.25f, 0.5f, 7.0f}));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.75f, 1.0f}));
+}
+
+TEST(FaceControls, KeepWeightsWhereNoneIsGiven) {
+    const auto face = makeFace({{"aa", "smile"}});
+    FaceControls controls(*face, {"aa", "smile"});
+    EXPECT_TRUE(controls.set(Floats{0.5f, 0.25f}));
+    EXPECT_TRUE(controls.set(Floats{kNone, 0.75f}));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.5f, 0.75f}));
+    EXPECT_FALSE(controls.set("aa", kNone));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.5f, 0.75f}));
+}
+
+TEST(FaceControls, TellOfNamesThatMoveNothing) {
+    const auto face = makeFace({{"jawOpen"}});
+    FaceControls controls(*face, {"jawOpen", "tongueOut", "viseme_sil"});
+    EXPECT_EQ(controls.matches()[0].kind, osgSkin::FaceMatch::Kind::Own);
+    EXPECT_EQ(controls.matches()[1].kind, osgSkin::FaceMatch::Kind::None);
+    EXPECT_FALSE(controls.set("tongueOut", 1.0f));
+    EXPECT_EQ(controls.matches()[2].kind, osgSkin::FaceMatch::Kind::Rest);
+    EXPECT_FALSE(controls.set("viseme_sil", 1.0f));
+    EXPECT_FALSE(controls.set("eyeBlinkLeft", 1.0f)) << "not one of its names";
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), Floats{0.0f});
+}
+
+TEST(FaceControls, OutliveSkinsAndTheirTargets) {
+    const auto face = makeFace({{"smile", "jawOpen"}, {"jawOpen"}});
+    FaceControls controls(*face, {"jawOpen"});
+    dynamic_cast<DeformableSkin&>(*face->getChild(0)).setMorphTargets(nullptr);
+    EXPECT_TRUE(controls.set("jawOpen", 0.5f));
+    EXPECT_EQ(skinOf(*face, 1).getMorphWeights(), Floats{0.5f});
+    face->removeChildren(0, 2);
+    EXPECT_TRUE(controls.set("jawOpen", 1.0f));
+}
