@@ -1,55 +1,56 @@
 // SPDX-License-Identifier: MIT
 #include "clips/BakedClip.h"
 
-#include <glm/common.hpp>
-
 #include <cmath>
 
 namespace osgSkin {
 namespace {
 
-/// cos(theta) - 1 down to which the series are exact to double precision: samples up to 28 degrees
-/// apart.
+/// cos(theta) - 1 down to which the series is exact to double precision: samples up to 28
+/// degrees apart.
 constexpr double kNear = -0.03;
-/// The same for the first kFew terms: up to 2.6 degrees apart, as most samples are.
-constexpr double kNearer = -0.001;
-constexpr std::size_t kFew = 5;
 
 } // namespace
 
 // sin(t theta) / sin(theta), slerp's weight, is a power series of x = cos(theta) - 1: it is
 // t (1 + f_1 x (1 + f_2 x (1 + ...))) with f_i = (t^2 - i^2) / (i (2 i + 1)). No arc cosine, no
 // sine, and as exact as those where the samples are near each other.
-SampleBlend::SampleBlend(double share) noexcept : _share(share), _rest(1.0 - share) {
+SampleBlend::SampleBlend(double share) noexcept : _shares{1.0 - share, share} {
+    Pair power = _shares;
     for (std::size_t k = 0; k < kTerms; ++k) {
+        _powers[k] = power;
         const auto i = static_cast<double>(k + 1);
-        _ofShare[k] = (_share * _share - i * i) / (i * (2.0 * i + 1.0));
-        _ofRest[k] = (_rest * _rest - i * i) / (i * (2.0 * i + 1.0));
+        for (std::size_t s = 0; s < 2; ++s)
+            power[s] *= (_shares[s] * _shares[s] - i * i) / (i * (2.0 * i + 1.0));
     }
 }
 
 JointSample SampleBlend::operator()(const JointSample& a, const JointSample& b) const noexcept {
-    if (!(_share > 0.0)) return a;
-    if (_share >= 1.0) return b;
-    JointSample result;
+    JointSample result; // the only one that is returned: it is not copied
+    const bool isFirst = !(_shares[1] > 0.0);
+    if (isFirst || _shares[1] >= 1.0) {
+        result = isFirst ? a : b;
+        return result;
+    }
     const double cosine = glm::dot(a.rotation, b.rotation);
     const double x = std::abs(cosine) - 1.0;
     if (x < kNear) {
-        result.rotation = glm::normalize(glm::slerp(a.rotation, b.rotation, _share));
+        result.rotation = glm::normalize(glm::slerp(a.rotation, b.rotation, _shares[1]));
     } else {
-        double from = 1.0, to = 1.0;
-        for (std::size_t k = x < kNearer ? kTerms : kFew; k-- > 0;) {
-            from = 1.0 + _ofRest[k] * x * from;
-            to = 1.0 + _ofShare[k] * x * to;
-        }
-        from *= _rest;
-        to *= cosine < 0.0 ? -_share : _share;
-        result.rotation = {
-            from * a.rotation.w + to * b.rotation.w, from * a.rotation.x + to * b.rotation.x,
-            from * a.rotation.y + to * b.rotation.y, from * a.rotation.z + to * b.rotation.z};
+        // In pairs and pairs of pairs, which do not wait for each other.
+        const auto& c = _powers;
+        const double x2 = x * x, x4 = x2 * x2;
+        Pair weight;
+        for (std::size_t s = 0; s < 2; ++s)
+            weight[s] = (c[0][s] + c[1][s] * x) + (c[2][s] + c[3][s] * x) * x2 +
+                        ((c[4][s] + c[5][s] * x) + (c[6][s] + c[7][s] * x) * x2) * x4;
+        const double from = weight[0], to = std::copysign(weight[1], cosine);
+        for (glm::length_t i = 0; i < 4; ++i)
+            result.rotation[i] = from * a.rotation[i] + to * b.rotation[i];
     }
-    result.translation = glm::mix(a.translation, b.translation, _share);
-    result.scale = glm::mix(a.scale, b.scale, _share);
+    for (glm::length_t i = 0; i < 3; ++i)
+        result.translation[i] = _shares[0] * a.translation[i] + _shares[1] * b.translation[i];
+    result.scale = _shares[0] * a.scale + _shares[1] * b.scale;
     return result;
 }
 

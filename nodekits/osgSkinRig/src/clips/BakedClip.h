@@ -63,8 +63,11 @@ public:
 private:
     static constexpr std::size_t kTerms = 8;
 
-    double _share, _rest;
-    std::array<double, kTerms> _ofShare, _ofRest; ///< factors of the series
+    /// Of both samples, side by side for the processor's vectors.
+    using Pair = std::array<double, 2>;
+
+    Pair _shares;
+    std::array<Pair, kTerms> _powers; ///< the series' coefficients
 };
 
 } // namespace osgSkin
