@@ -3,6 +3,7 @@
 
 #include "CharacterOptions.h"
 #include "CommandLine.h"
+#include "SceneFile.h"
 #include "Surface.h"
 
 #include <osgDB/FileNameUtils>
@@ -162,7 +163,8 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     line.add("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
     const auto rigged = line.add(
         "--rigged", arguments.rigged,
-        "write a skeleton, weights and clips for other engines (.glb); all clips without --motion");
+        "write a skeleton, weights and clips for other engines (.glb) or for osgAnimation alone "
+        "(.osgb); all clips without --motion");
     line.add("--helpers", helpers,
              "helper joints of --rigged for each joint that bends skin, in the mean at most; 8")
         .range(0, 64)
@@ -191,12 +193,12 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     line.parse(argc, argv);
     arguments.helpers = std::size_t(helpers);
     arguments.weights = weights == "8" ? 8 : 4;
-    if (rigged.isGiven() && extensionOf(arguments.rigged) != "glb")
-        throw UsageError{"--rigged: expected a file whose name ends in .glb, found \"" +
+    if (rigged.isGiven() && extensionOf(arguments.rigged) != "glb" &&
+        !isSceneFile(arguments.rigged))
+        throw UsageError{"--rigged: expected a file whose name ends in .glb or .osgb, found \"" +
                          arguments.rigged + "\""};
     if (faces == "-y") gaits.forward = osgSkin::WalkerOptions::Forward::MinusY;
-    if (walker.isGiven() && extensionOf(arguments.walker) != "osgb" &&
-        extensionOf(arguments.walker) != "osgt" && extensionOf(arguments.walker) != "osgx")
+    if (walker.isGiven() && !isSceneFile(arguments.walker))
         throw UsageError{"--walker: expected a file whose name ends in .osgb, found \"" +
                          arguments.walker + "\""};
     if (!frames.empty()) arguments.frames = example::FrameRange::parse(frames);

@@ -28,7 +28,7 @@ struct Arguments {
     std::string rest;                     ///< file for the bind pose; empty for none
     std::string binding;                  ///< JSON file for the binding; empty for none
     std::string pose;                     ///< JSON file for the poses; empty for none
-    std::string rigged;                   ///< .glb file with a skeleton; empty for none
+    std::string rigged;                   ///< file with a skeleton; empty for none
     std::size_t helpers = 8, weights = 4; ///< of `rigged`, see LinearSkinOptions
     std::string walker;                   ///< .osgb file for a walker; empty for none
     osgSkin::WalkerOptions walkerOptions;

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "WalkerFile.h"
 
-#include "Bytes.h"
+#include "SceneFile.h"
 
 #include <osgSkin/Error>
 #include <osgSkinRig/MakeWalker>
 
-#include <osgDB/FileNameUtils>
 #include <osgDB/ObjectWrapper>
-#include <osgDB/Options>
 #include <osgDB/Registry>
 
 #include <iomanip>
 #include <iostream>
-#include <sstream>
 
 namespace bake {
 namespace {
@@ -49,17 +46,7 @@ void writeWalker(osgSkin::Character& character, const Arguments& arguments) {
     osgSkin::WalkerReport report;
     const osg::ref_ptr<osgSkin::Walker> walker =
         osgSkin::makeWalker(*character.root, arguments.walkerOptions, &report);
-    // Textures go into the file, which then needs no other one.
-    const osg::ref_ptr<osgDB::Options> options =
-        new osgDB::Options("WriteImageHint=IncludeData Compressor=zlib");
-    const std::string extension = osgDB::getLowerCaseFileExtension(arguments.walker);
-    if (extension != "osgb") options->setPluginStringData("fileType", "Ascii");
-    osgDB::ReaderWriter* const writer =
-        osgDB::Registry::instance()->getReaderWriterForExtension(extension);
-    std::ostringstream bytes;
-    if (!writer || !writer->writeNode(*walker, bytes, options).success())
-        throw osgSkin::Error(arguments.walker + ": OpenSceneGraph could not write the walker");
-    writeBytes(arguments.walker, bytes.str());
+    writeScene(arguments.walker, *walker);
     if (!arguments.quiet) tell(report);
 }
 

@@ -3,9 +3,11 @@
 #include "Bytes.h"
 #include "FrameWriter.h"
 #include "ObjWriter.h"
+#include "OsgRig.h"
 #include "PosedMesh.h"
 #include "ProgressLine.h"
 #include "RiggedGlb.h"
+#include "SceneFile.h"
 #include "WalkerFile.h"
 
 #include <osgSkin/Binding>
@@ -29,11 +31,14 @@
 #include <cmath>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <random>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace bake {
@@ -354,10 +359,25 @@ std::vector<bake::RiggedClip> riggedClips(const Arguments& arguments, Character&
     return clips;
 }
 
+/// The name of a file that is not there, and is removed at the end of the scope.
+struct TemporaryFile {
+    const std::string file = (std::filesystem::temp_directory_path() /
+                              ("osgskinbake-" + std::to_string(std::random_device()()) + ".glb"))
+                                 .string();
+    ~TemporaryFile() {
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+    }
+};
+
 void bakeRigged(const Arguments& arguments, Character& character) {
     const std::vector<bake::RiggedClip> clips = riggedClips(arguments, character);
-    const bake::RiggedReport report = bake::writeRigged(arguments.rigged, character, clips,
-                                                        {arguments.weights, arguments.helpers});
+    const bool isScene = bake::isSceneFile(arguments.rigged);
+    const TemporaryFile temporary;
+    const std::string& glb = isScene ? temporary.file : arguments.rigged;
+    const bake::RiggedReport report =
+        bake::writeRigged(glb, character, clips, {arguments.weights, arguments.helpers});
+    if (isScene) bake::writeOsgRig(glb, arguments.rigged);
     if (arguments.quiet) return;
     std::cerr << arguments.rigged << ": " << report.joints << " joints, " << report.helpers
               << " helper joints, " << clips.size() << " clips, " << report.morphs
