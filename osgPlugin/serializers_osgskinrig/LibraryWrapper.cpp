@@ -7,6 +7,7 @@
 
 #include <osgDB/Registry>
 
+USE_SERIALIZER_WRAPPER(osgSkinRig_Constraints)
 USE_SERIALIZER_WRAPPER(osgSkinRig_Gaits)
 USE_SERIALIZER_WRAPPER(osgSkinRig_Springs)
 USE_SERIALIZER_WRAPPER(osgSkinRig_Walker)

@@ -424,16 +424,6 @@ TEST(GltfDialect, ReadsPointersToNodesAsChannels) {
     expectError([&] { clipOf(true, "/cameras/"); }, "no animation");
 }
 
-TEST(GltfDialect, ReportsNodeConstraints) {
-    GltfColumn column;
-    column.json["nodes"][1]["extensions"]["VRMC_node_constraint"] = {{"specVersion", "1.0"}};
-    const test::Notices notices;
-    osgSkin::importRig(column.save("constraint.gltf"));
-    EXPECT_TRUE(notices.say("1 nodes have constraints (VRMC_node_constraint), which are not "
-                            "applied, \"middle\" among them"))
-        << notices.text();
-}
-
 TEST(GltfDialect, ReadsTheRolesOfVrmBones) {
     for (const bool isFirst : {true, false}) {
         GltfColumn column;

@@ -20,6 +20,7 @@
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinRig/BodyDirections>
 #include <osgSkinRig/Clip>
+#include <osgSkinRig/Constraints>
 #include <osgSkinRig/ForwardKinematics>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/Motion>
@@ -348,6 +349,8 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         character.pose(character.motions.front(), 0);
     }
     play(character);
+    if (!source.constraints.empty())
+        (new Constraints(source.constraints))->addTo(*character.skeleton);
     if (!source.springs.chains.empty() && source.options.springs.value_or(true))
         (new Springs(source.springs, character.toWorld))->addTo(*character.skeleton);
 }

@@ -9,6 +9,7 @@
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinRig/ApplyFrame>
+#include <osgSkinRig/Constraints>
 #include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/Springs>
 
@@ -35,6 +36,7 @@ void Character::pose(const CharacterMotion& motion, std::size_t frame) {
                     std::to_string(motion.clip.frames) + " samples, found frame " +
                     std::to_string(frame));
     applyFrame(motion.clip, rest, frame, *skeleton);
+    if (Constraints* const constraints = Constraints::of(*skeleton)) constraints->apply(*skeleton);
     poseSkins(*this);
 }
 

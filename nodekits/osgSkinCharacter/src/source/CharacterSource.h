@@ -15,6 +15,7 @@
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadLimits>
+#include <osgSkinRig/Constraint>
 #include <osgSkinRig/RestSkeleton>
 #include <osgSkinRig/SpringSettings>
 
@@ -62,6 +63,7 @@ struct CharacterSource {
 
     ImportedMesh body;
     RestSkeleton rest;
+    std::vector<Constraint> constraints; ///< that the files state
     SpringSettings springs; ///< that the files state; the options may say that none swing
     FitReport fitReport;
     osg::Matrixd toWorld;    ///< rotates rest space to Z up

@@ -3,6 +3,7 @@
 
 #include "source/ApplyOptions.h"
 
+#include <osgSkinImport/ImportConstraints>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSprings>
 
@@ -19,6 +20,7 @@ CharacterSource readRig(const std::string& file, const LoadOptions& options, Loa
     source.body = std::move(rig.body);
     source.rest = std::move(rig.rest);
     source.springs = importSprings(file, options.readOptions.get());
+    source.constraints = importConstraints(file, options.readOptions.get());
     source.toWorld = rig.toWorld;
     source.statedUnit = rig.metresPerUnit;
     source.skeleton = rig.skeleton;

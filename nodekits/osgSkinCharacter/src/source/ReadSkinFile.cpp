@@ -7,6 +7,7 @@
 
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
+#include <osgSkinImport/ImportConstraints>
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinImport/ImportSprings>
 #include <osgSkinImport/ShareImages>
@@ -168,7 +169,10 @@ CharacterSource readSkinFile(const std::string& file, const LoadOptions& options
         if (skin.skeleton != skin.mesh) turnIntoBody(source, skin.skeleton);
     }
     const osgDB::Options* read = options.readOptions.get();
-    if (skin.skeleton == skin.mesh) source.springs = importSprings(skin.mesh, read);
+    if (skin.skeleton == skin.mesh) {
+        source.springs = importSprings(skin.mesh, read);
+        source.constraints = importConstraints(skin.mesh, read);
+    }
     withFileContext(file, [&] { addSprings(skin, source); });
     source.statedUnit = importUnit(skin.mesh, read);
     if (source.statedUnit == 0.0 && !skin.fit) source.statedUnit = importUnit(skin.skeleton, read);

@@ -259,6 +259,11 @@ void addAnimations(const GltfDocument& document, const std::vector<int>& indexOf
 /// \param scene with all nodes
 void readSprings(GltfDocument& document, const std::vector<int>& indexOf, SourceScene& scene);
 
+/// Reads the constraints of VRM 1. Reports those that cannot be used, which are left out.
+/// \param indexOf as for addMeshes()
+/// \param scene with all nodes
+void readConstraints(GltfDocument& document, const std::vector<int>& indexOf, SourceScene& scene);
+
 /// The decoded content of a Draco-compressed primitive.
 struct DracoMesh {
     std::vector<std::uint32_t> corners; ///< of triangles

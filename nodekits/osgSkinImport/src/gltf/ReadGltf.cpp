@@ -76,22 +76,6 @@ void noteExtensions(const GltfFile& file) {
                                 "\", which is not known; read without it");
 }
 
-/// Reports nodes that VRM 1.0's constraints would move.
-void noteConstraints(const GltfFile& file) {
-    std::size_t constrained = 0;
-    std::string first;
-    for (const json& node : file.json.value("nodes", json::array())) {
-        const auto extensions = node.find("extensions");
-        if (extensions == node.end() || !extensions->contains("VRMC_node_constraint")) continue;
-        if (constrained++ == 0 && node.contains("name")) first = node.at("name");
-    }
-    if (constrained > 0)
-        warn(file.path, std::to_string(constrained) +
-                            " nodes have constraints (VRMC_node_constraint), which are not "
-                            "applied" +
-                            (first.empty() ? "" : ", " + inQuotes(first) + " among them"));
-}
-
 /// Whether the figure faces -Z, as in VRM 0, and not +Z, as in glTF.
 bool facesBackwards(const GltfFile& file) {
     const auto extensions = file.json.find("extensions");
@@ -251,6 +235,7 @@ std::set<std::string> namedJoints(const GltfDocument& document, const SourceScen
     for (const GltfSkin& skin : document.skins)
         for (const std::size_t joint : skin.joints) result.insert(document.nodes[joint].name);
     for (const auto& [name, node] : humanBones(document)) result.insert(document.nodes[node].name);
+    for (const Constraint& constraint : scene.constraints) result.insert(constraint.joint.name);
     return result;
 }
 
@@ -297,7 +282,6 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
     GltfFile file = GltfFile::read(path, limits);
     try {
         noteExtensions(file);
-        noteConstraints(file);
         unpackMeshopt(file);
         countDraco(file);
         GltfDocument document(file);
@@ -309,6 +293,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
             addNodes(document, rootsWithJoints(document, shown), rootName, scene);
         setRoles(document, indexOf, scene);
         readSprings(document, indexOf, scene);
+        readConstraints(document, indexOf, scene);
         addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
         bindRigidParts(namedJoints(document, scene), scene);

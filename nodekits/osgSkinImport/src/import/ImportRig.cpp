@@ -13,6 +13,7 @@
 #include <osgSkin/GlmTypes>
 #include <osgSkin/UpdateMorphs>
 #include <osgSkin/UpdatePlayedSkeleton>
+#include <osgSkinRig/Constraint>
 
 #include <glm/geometric.hpp>
 #include <osgAnimation/Animation>
@@ -75,7 +76,7 @@ osg::ref_ptr<osgAnimation::Skeleton> makeBones(const SceneSkeleton& joints,
     osg::Group* top = skeleton.get();
     if (joints.aboveRoot != glm::dmat4(1.0)) {
         const osg::ref_ptr<osgAnimation::Bone> above =
-            makeBone(joints.rest.joints[0].name + ":above", joints.aboveRoot, false);
+            makeBone(joints.rest.joints[0].name + kAboveRoot, joints.aboveRoot, false);
         above->setMatrixInSkeletonSpace(toOsg(joints.aboveRoot));
         skeleton->addChild(above);
         top = above.get();

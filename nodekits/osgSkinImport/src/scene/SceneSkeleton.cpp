@@ -137,6 +137,9 @@ std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind
     for (const std::string& name : animatedNames(scene))
         if (const SourceNode* node = bind.find(name)) moving.insert(node);
     if (bones.empty()) return moving.empty() ? nodesOfSkeleton(bind) : moving;
+    for (const Constraint& constraint : scene.constraints)
+        for (const std::string& name : {constraint.joint.name, constraint.source.name})
+            if (const SourceNode* node = bind.find(name)) moving.insert(node);
     for (const SourceNode* node : bones)
         for (; node != nullptr && lineage.insert(node).second;) node = bind.parent(*node);
     for (const SourceNode* node : moving)

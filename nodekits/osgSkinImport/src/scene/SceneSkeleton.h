@@ -27,9 +27,9 @@ struct SceneSkeleton {
     glm::dmat4 aboveRoot{1.0};              ///< from the root joint's parent node to the scene
 };
 
-/// The joint nodes: bones, and animated nodes above or below them. Other animated nodes of a scene
-/// with a skin (a camera, a door) are not joints; in a scene without a skin, all animated nodes
-/// are; in one without a mesh or a clip, all nodes.
+/// The joint nodes: bones, and nodes above or below them that are animated, constrained or sources
+/// of constraints. Other animated nodes of a scene with a skin (a camera, a door) are not joints; in
+/// a scene without a skin, all animated nodes are; in one without a mesh or a clip, all nodes.
 std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind& bind);
 
 /// Finds the joints in the bind pose; no joint if the scene has none. Nothing is checked.

@@ -10,6 +10,7 @@
 #include "mesh/Material.h"
 
 #include <osgSkin/MorphTargets>
+#include <osgSkinRig/Constraint>
 #include <osgSkinRig/SpringSettings>
 
 #include <osg/Image>
@@ -121,7 +122,8 @@ struct SourceScene {
     std::vector<SourceMaterial> materials; ///< at least one
     std::vector<std::shared_ptr<const SourceImage>> images;
     std::vector<std::shared_ptr<const SourceAnimation>> animations;
-    SpringSettings springs; ///< of nodes in place of joints, in the nodes' pose
+    SpringSettings springs;              ///< of nodes in place of joints, in the nodes' pose
+    std::vector<Constraint> constraints; ///< of nodes, without axes
 
     osg::Matrixd toWorld;       ///< rotates up to Z and the front to -Y
     double metresPerUnit = 0.0; ///< 0 if the format does not state it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/Springs>
 
+#include "skeleton/BoneCallbacks.h"
 #include "springs/SpringChains.h"
 
 #include <osgSkin/BoneReader>
@@ -26,14 +27,6 @@ double scaleOf(const osg::Matrixd& matrix) {
     const glm::dmat3 m(toGlm(matrix));
     const double scale = std::cbrt(std::abs(glm::determinant(m)));
     return std::isfinite(scale) ? scale : 0.0;
-}
-
-/// The rotation of a matrix that is not singular.
-glm::dquat axesOf(const osg::Matrixd& matrix) {
-    glm::dmat3 m(toGlm(matrix));
-    for (int i = 0; i < 3; ++i) m[i] = glm::normalize(m[i]);
-    if (glm::determinant(m) < 0.0) m = -m;
-    return glm::normalize(glm::quat_cast(m));
 }
 
 int depthOf(const Bone& bone) {
@@ -239,24 +232,11 @@ Springs::Springs(const Springs& other, const osg::CopyOp& copyop)
 Springs::~Springs() = default;
 
 Springs* Springs::of(osgAnimation::Skeleton& skeleton) {
-    for (const auto& [name, bone] : bonesOf(skeleton))
-        for (osg::Callback* c = bone->getUpdateCallback(); c; c = c->getNestedCallback())
-            if (auto* found = dynamic_cast<Springs*>(c)) return found;
-    return nullptr;
+    return callbackOf<Springs>(skeleton);
 }
 
 bool Springs::addTo(osgAnimation::Skeleton& skeleton) {
-    const osg::ref_ptr<Springs> other = of(skeleton);
-    Bone* last = nullptr; // of the topmost bones: all others are posed before it
-    for (const auto& [name, bone] : bonesOf(skeleton)) {
-        if (other) bone->removeUpdateCallback(other);
-        if (bone->getBoneParent()) continue;
-        if (!last || skeleton.getChildIndex(bone) > skeleton.getChildIndex(last)) last = bone;
-    }
-    if (!last) return false;
-    // The first callback is the last to act, because each calls the next one before.
-    setNestedCallback(last->getUpdateCallback());
-    last->setUpdateCallback(this);
+    if (!addLast(*this, skeleton)) return false;
     reset();
     return true;
 }
@@ -271,10 +251,9 @@ void Springs::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     traverse(node, nv);
     if (!nv || !nv->getFrameStamp()) return;
     static thread_local osg::NodePath path; // keeps its memory
-    path = nv->getNodePath();
-    while (!path.empty() && !dynamic_cast<osgAnimation::Skeleton*>(path.back())) path.pop_back();
-    if (path.empty()) return;
-    auto& skeleton = static_cast<osgAnimation::Skeleton&>(*path.back());
+    osgAnimation::Skeleton* const found = skeletonAbove(*nv, path);
+    if (!found) return;
+    osgAnimation::Skeleton& skeleton = *found;
     const double time = nv->getFrameStamp()->getSimulationTime();
     if (_swing && !_swing->fits(skeleton)) _swing = nullptr;
     if (!_enabled) {

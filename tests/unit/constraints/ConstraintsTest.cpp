@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "ConstrainedRig.h"
+#include "FindNodes.h"
+#include "Notices.h"
+#include "UpdateAt.h"
+
+#include <osgSkin/Error>
+#include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinRig/ClipCharacter>
+#include <osgSkinRig/Constraints>
+#include <osgSkinRig/Springs>
+
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+using osgSkin::Constraint;
+using osgSkin::Constraints;
+using osgSkin::Springs;
+
+const std::vector<test::NodeConstraint> kArm = {{"twist", "hand", "roll", "Y", 0.5},
+                                                {"sleeve", "lower", "aim", "PositiveX", 0.7},
+                                                {"copy", "upper", "rotation", "", 1.0}};
+
+Constraint makeConstraint(const std::string& joint, const std::string& source) {
+    Constraint result;
+    result.joint.name = joint;
+    result.source.name = source;
+    return result;
+}
+
+std::string errorOf(const std::vector<Constraint>& constraints) {
+    try {
+        const osg::ref_ptr<Constraints> made = new Constraints(constraints);
+        return "";
+    } catch (const osgSkin::Error& error) {
+        return error.what();
+    }
+}
+
+/// The bone's callbacks of these classes, the last to act first.
+std::string orderOf(osgAnimation::Bone& bone) {
+    std::string result;
+    for (osg::Callback* c = bone.getUpdateCallback(); c; c = c->getNestedCallback()) {
+        if (dynamic_cast<Constraints*>(c)) result += "constraints ";
+        if (dynamic_cast<Springs*>(c)) result += "springs ";
+    }
+    return result;
+}
+
+} // namespace
+
+TEST(Constraints, RefuseCirclesAndNumbersThatCannotBe) {
+    EXPECT_EQ(errorOf({}), "");
+    EXPECT_EQ(errorOf({makeConstraint("a", "b"), makeConstraint("b", "c")}), "");
+    EXPECT_EQ(
+        errorOf({makeConstraint("a", "b"), makeConstraint("c", "b"), makeConstraint("b", "a")}),
+        "constraints: \"a\" follows \"b\", which follows it: expected no circle");
+    EXPECT_NE(errorOf({makeConstraint("a", "a")}), "");
+    const std::string wrong = "constraint of \"a\": expected rotations and an axis that are finite "
+                              "and not 0, and a weight of 0 to 1";
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const auto with = [](auto change) {
+        Constraint odd = makeConstraint("a", "b");
+        change(odd);
+        return errorOf({odd});
+    };
+    EXPECT_EQ(with([](Constraint& odd) { odd.axis = glm::dvec3(0.0); }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.axis.x = kNone; }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.weight = 1.25; }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.weight = kNone; }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.source.axes = glm::dquat(0, 0, 0, 0); }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.joint.rest.w = kNone; }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.axis *= 7.0; }), "");
+}
+
+TEST(Constraints, ComeBeforeSprings) {
+    osgSkin::SpringSettings springs;
+    springs.chains.resize(1);
+    springs.chains[0].joints = {{"hand", {0, 2, 0}}};
+    for (const bool springsFirst : {true, false}) {
+        test::ConstrainedRig rig(0);
+        osgSkin::Character character = osgSkin::loadCharacter(rig.write("order.vrm", kArm));
+        osgAnimation::Skeleton& skeleton = *character.skeleton;
+        const osg::ref_ptr<Constraints> constraints = Constraints::of(skeleton);
+        ASSERT_TRUE(constraints);
+        if (!springsFirst) (new Springs(springs))->addTo(skeleton);
+        if (springsFirst) {
+            (new Springs(springs))->addTo(skeleton);
+            EXPECT_TRUE(constraints->addTo(skeleton)); // again
+        }
+        EXPECT_EQ(orderOf(*character.bone("root")), "springs constraints ");
+    }
+}
+
+TEST(Constraints, FollowABonePlayer) {
+    test::ConstrainedRig rig(4);
+    osgSkin::Character character = osgSkin::loadCharacter(rig.write("player.vrm", kArm));
+    const test::Notices notices;
+    const auto clips = osgSkin::ClipCharacter::create(*character.root);
+    EXPECT_TRUE(notices.say("its constraints are followed with makeBonePlayer(), not in copies"))
+        << notices.text();
+    const auto player = clips->makeBonePlayer();
+    player->setLayer(0, {clips->clip("move"), 1.0, 0.0});
+    test::updateAt(*character.root, 0.0);
+    test::updateAt(*character.root, 0.5);
+    EXPECT_LT(rig.error(*character.skeleton, rig.expected(1, kArm)), 1e-5);
+}
+
+TEST(Constraints, OutliveBones) {
+    test::ConstrainedRig rig(4);
+    osgSkin::Character character = osgSkin::loadCharacter(rig.write("lost.vrm", kArm));
+    test::updateAt(*character.root, 1.0);
+    const osg::ref_ptr<osgAnimation::Bone> lower = character.bone("lower");
+    const test::Notices notices; // of the skin
+    lower->removeChild(character.bone("twist"));
+    test::updateAt(*character.root, 1.1);
+    osg::Group& upper = *lower->getParent(0);
+    upper.removeChild(lower);
+    test::updateAt(*character.root, 1.2);
+}
+
+class SavedConstraints : public testing::TestWithParam<const char*> {};
+
+TEST_P(SavedConstraints, PoseAsBefore) {
+    test::ConstrainedRig rig(6, true);
+    const osgSkin::Character character = osgSkin::loadCharacter(rig.write("saved.vrm", kArm));
+    const std::string file = testing::TempDir() + "constraints." + GetParam();
+    ASSERT_TRUE(osgDB::writeNodeFile(*character.root, file));
+    const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);
+    ASSERT_TRUE(read);
+    const auto skeletons = test::findNodes<osgAnimation::Skeleton>(*read);
+    ASSERT_EQ(skeletons.size(), 1u);
+    const Constraints* const found = Constraints::of(*skeletons[0].node);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->get().size(), 3u);
+    for (const double time : {0.0, 1.0}) {
+        test::updateAt(*read, time);
+        EXPECT_LT(rig.error(*skeletons[0].node, rig.expected(int(time), kArm)), 1e-5);
+    }
+    const osg::ref_ptr<osg::Node> copy =
+        osg::clone(read.get(), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES |
+                                   osg::CopyOp::DEEP_COPY_CALLBACKS);
+    test::updateAt(*copy, 0.0);
+    test::updateAt(*copy, 1.0);
+    const auto copies = test::findNodes<osgAnimation::Skeleton>(*copy);
+    EXPECT_LT(rig.error(*copies.at(0).node, rig.expected(1, kArm)), 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, SavedConstraints, testing::Values("osgt", "osgb", "osgx"));
