@@ -8,6 +8,7 @@
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinRig/ClipCharacter>
 #include <osgSkinRig/Constraints>
+#include <osgSkinRig/SampledClip>
 #include <osgSkinRig/Springs>
 
 #include <osgDB/ReadFile>
@@ -103,15 +104,40 @@ TEST(Constraints, ComeBeforeSprings) {
 TEST(Constraints, FollowABonePlayer) {
     test::ConstrainedRig rig(4);
     osgSkin::Character character = osgSkin::loadCharacter(rig.write("player.vrm", kArm));
-    const test::Notices notices;
     const auto clips = osgSkin::ClipCharacter::create(*character.root);
-    EXPECT_TRUE(notices.say("its constraints are followed with makeBonePlayer(), not in copies"))
-        << notices.text();
     const auto player = clips->makeBonePlayer();
     player->setLayer(0, {clips->clip("move"), 1.0, 0.0});
     test::updateAt(*character.root, 0.0);
     test::updateAt(*character.root, 0.5);
     EXPECT_LT(rig.error(*character.skeleton, rig.expected(1, kArm)), 1e-5);
+}
+
+/// Which copies without bones, crowds and walkers play.
+TEST(Constraints, AreInSampledClips) {
+    test::ConstrainedRig rig(4, true);
+    osgSkin::Character character = osgSkin::loadCharacter(rig.write("sampled.vrm", kArm));
+    const auto clips = osgSkin::ClipCharacter::create(*character.root);
+    const osg::Matrixd before = character.bone("copy")->getMatrix();
+    const auto clip = clips->clip("move");
+    EXPECT_EQ(character.bone("copy")->getMatrix(), before);
+    const auto bind = rig.placesOf([&](std::size_t n) { return rig.nodes[n].bind; });
+    for (const int key : {0, 1}) {
+        const auto expected = rig.expected(key, kArm);
+        const osgSkin::JointSample* const sample =
+            clip->sample(std::size_t(key / clip->step() + 0.5));
+        std::vector<glm::dquat> turns;
+        for (std::size_t j = 0; j < clip->joints().size(); ++j) {
+            const osgSkin::SampledClip::Joint& joint = clip->joints()[j];
+            turns.push_back(sample[j].rotation);
+            if (joint.parent >= 0) turns[j] = turns[std::size_t(joint.parent)] * turns[j];
+            const std::size_t n = rig.indexOf(joint.name);
+            const glm::dmat3 wanted =
+                glm::mat3_cast(expected[n]) * glm::inverse(glm::dmat3(bind[n]));
+            const glm::dmat3 found = glm::mat3_cast(turns[j]);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_LT(glm::length(found[c] - wanted[c]), 1e-5) << joint.name << ", " << key;
+        }
+    }
 }
 
 TEST(Constraints, OutliveBones) {

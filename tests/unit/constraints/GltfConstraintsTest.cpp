@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,19 @@ TEST(GltfConstraints, MatchOnBonesWithOtherAxes) {
         constraints.apply(*skeleton);
         EXPECT_LT(rig.error(*skeleton, rig.expected(1, list)), kTolerance) << name;
     }
+}
+
+TEST(GltfConstraints, ComeWithTheMeshOfASkinFile) {
+    ConstrainedRig rig(2);
+    const std::string mesh = rig.write("named.vrm", {{"twist", "hand", "roll", "Y", 0.5}});
+    const std::string file = testing::TempDir() + "constraints.skin";
+    std::ofstream(file) << json{{"osgskin", 1}, {"mesh", mesh}, {"bind", "weights"}};
+    Character character = osgSkin::loadCharacter(file);
+    const Constraints* const found = Constraints::of(*character.skeleton);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->get().size(), 1u);
+    EXPECT_EQ(found->get()[0].joint.name, "twist");
+    EXPECT_EQ(found->get()[0].source.name, "hand");
 }
 
 TEST(GltfConstraints, AreNoneInOtherFiles) {

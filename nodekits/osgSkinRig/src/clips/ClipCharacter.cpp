@@ -10,7 +10,6 @@
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
 #include <osgSkin/UpdateMorphs>
-#include <osgSkinRig/Constraints>
 #include <osgSkinRig/Springs>
 
 #include <glm/common.hpp>
@@ -320,11 +319,6 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
         result->_skins.push_back({skin, osg::computeLocalToWorld(path), appearanceOf(path)});
     }
     if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
-    if (Constraints::of(*result->_skeleton))
-        OSG_NOTICE
-            << "osgSkin: clip character: its constraints are followed with makeBonePlayer(), "
-               "not in copies without bones"
-            << std::endl;
     if (Springs::of(*result->_skeleton))
         OSG_NOTICE << "osgSkin: clip character: its springs swing with makeBonePlayer(), not in "
                       "copies without bones"

@@ -8,6 +8,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/Pose>
+#include <osgSkinRig/Constraints>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/MakeAnimation>
 
@@ -39,12 +40,17 @@ public:
     void append(double time, std::vector<JointSample>& samples);
 
 private:
+    void constrain(std::vector<osg::Matrixd>& inSkeleton);
+
     osg::ref_ptr<osgAnimation::Animation> _animation;             ///< with its keys' own duration
     double _speed;                                                ///< keySpeed()
     std::vector<osg::ref_ptr<osgAnimation::Bone>> _bones;         ///< parents before children
     std::vector<osg::ref_ptr<osgAnimation::UpdateBone>> _updates; ///< a bone each, or null
     std::vector<BoundJoint> _joints;
     Pose _pose;
+    osg::ref_ptr<Constraints> _constraints;            ///< null where there are none
+    osg::ref_ptr<osgAnimation::Skeleton> _constrained; ///< copies of the bones, for these
+    std::vector<osg::ref_ptr<osgAnimation::Bone>> _constrainedBones;
 };
 
 /// A copy of a bone's update callback, linked with an animation's channels; null where there is
@@ -86,6 +92,33 @@ BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation:
                            toGlm(bind.getTrans()), up, up});
     }
     _pose = Pose(_joints);
+    const Constraints* const constraints = Constraints::of(skeleton);
+    if (!constraints) return;
+    _constraints = new Constraints(constraints->get());
+    _constrained = new osgAnimation::Skeleton;
+    for (std::size_t j = 1; j < _joints.size(); ++j) {
+        const osg::ref_ptr<osgAnimation::Bone> copy = new osgAnimation::Bone(_joints[j].name);
+        copy->setInvBindMatrixInSkeletonSpace(_bones[j - 1]->getInvBindMatrixInSkeletonSpace());
+        const auto parent = static_cast<std::size_t>(_joints[j].parent);
+        osg::Group* above = _constrained;
+        if (parent > 0) above = _constrainedBones[parent - 1];
+        above->addChild(copy);
+        _constrainedBones.push_back(copy);
+    }
+}
+
+/// Rotates constrained bones, and moves those below.
+/// \param inSkeleton matrices of the joints
+void BoneSampler::constrain(std::vector<osg::Matrixd>& inSkeleton) {
+    for (std::size_t j = 1; j < inSkeleton.size(); ++j) {
+        osgAnimation::Bone& bone = *_constrainedBones[j - 1];
+        bone.setMatrixInSkeletonSpace(inSkeleton[j]);
+        const auto parent = static_cast<std::size_t>(_joints[j].parent);
+        bone.setMatrix(inSkeleton[j] * osg::Matrixd::inverse(inSkeleton[parent]));
+    }
+    _constraints->apply(*_constrained);
+    for (std::size_t j = 1; j < inSkeleton.size(); ++j)
+        inSkeleton[j] = _constrainedBones[j - 1]->getMatrixInSkeletonSpace();
 }
 
 std::vector<SampledClip::Joint> BoneSampler::joints() const {
@@ -101,13 +134,13 @@ void BoneSampler::append(double time, std::vector<JointSample>& samples) {
     for (const osg::ref_ptr<osgAnimation::Channel>& channel : _animation->getChannels())
         channel->update(time * _speed, 1.0f, 0);
     std::vector<osg::Matrixd> inSkeleton(_joints.size());
-    std::vector<glm::dmat4> skinning = {glm::dmat4(1.0)};
-    for (std::size_t j = 1; j < _joints.size(); ++j) {
-        osgAnimation::Bone& bone = *_bones[j - 1];
-        inSkeleton[j] = matrixOf(bone, _updates[j - 1].get()) *
+    for (std::size_t j = 1; j < _joints.size(); ++j)
+        inSkeleton[j] = matrixOf(*_bones[j - 1], _updates[j - 1].get()) *
                         inSkeleton[static_cast<std::size_t>(_joints[j].parent)];
-        skinning.push_back(toGlm(bone.getInvBindMatrixInSkeletonSpace() * inSkeleton[j]));
-    }
+    if (_constraints) constrain(inSkeleton);
+    std::vector<glm::dmat4> skinning = {glm::dmat4(1.0)};
+    for (std::size_t j = 1; j < _joints.size(); ++j)
+        skinning.push_back(toGlm(_bones[j - 1]->getInvBindMatrixInSkeletonSpace() * inSkeleton[j]));
     if (!_pose.set(skinning.data(), skinning.size()))
         throw Error("sampled clip: animation \"" + _animation->getName() +
                     "\" makes a bone's matrix singular or not finite");
