@@ -40,43 +40,43 @@ const std::vector<std::string> kVrm =
     split("happy angry sad relaxed surprised aa ih ou ee oh blink blinkLeft blinkRight lookUp "
           "lookDown lookLeft lookRight neutral");
 
-/// Names that mean the same, and their sum: "name*" is the left and the right one, and a weight
-/// follows where it is not 1. A row serves both sides and, by its part, each of them. Words of
-/// names are joined, and sides are at the end.
+/// Names that mean the same, and their sum: "name*" is the left and the right one, and a weight in
+/// percent follows where it is not 100. A row serves both sides and, by its part, each of them.
+/// Words of names are joined, and sides are at the end.
 const struct {
     const char *names, *sum;
 } kRows[] = {
     // Vowels: VRM 0, VRM 1, VRoid; visemes.
-    {"a,aa,ah,fclmtha", "jawOpen .7"},
-    {"i,ih,fclmthi", "jawOpen .15 mouthStretch* .5 mouthSmile* .2"},
-    {"u,ou,fclmthu", "jawOpen .15 mouthPucker .8"},
-    {"e,ee,fclmthe", "jawOpen .3 mouthStretch* .4"},
-    {"o,oh,fclmtho", "jawOpen .4 mouthFunnel .7"},
-    {"pp", "mouthPress* .6 mouthRollLower .4 mouthRollUpper .4 mouthClose .3"},
-    {"ff", "mouthRollLower .6 mouthUpperUp* .3"},
-    {"th", "jawOpen .2 tongueOut .4"},
-    {"dd", "jawOpen .2 mouthLowerDown* .2"},
-    {"kk", "jawOpen .25 mouthStretch* .2"},
-    {"ch", "jawOpen .1 mouthFunnel .5"},
-    {"ss", "jawOpen .05 mouthStretch* .4 mouthLowerDown* .2"},
-    {"nn", "jawOpen .15 mouthLowerDown* .2"},
-    {"rr", "jawOpen .15 mouthPucker .4"},
+    {"a,aa,ah,fclmtha", "jawOpen 70"},
+    {"i,ih,fclmthi", "jawOpen 15 mouthStretch* 50 mouthSmile* 20"},
+    {"u,ou,fclmthu", "jawOpen 15 mouthPucker 80"},
+    {"e,ee,fclmthe", "jawOpen 30 mouthStretch* 40"},
+    {"o,oh,fclmtho", "jawOpen 40 mouthFunnel 70"},
+    {"pp", "mouthPress* 60 mouthRollLower 40 mouthRollUpper 40 mouthClose 30"},
+    {"ff", "mouthRollLower 60 mouthUpperUp* 30"},
+    {"th", "jawOpen 20 tongueOut 40"},
+    {"dd", "jawOpen 20 mouthLowerDown* 20"},
+    {"kk", "jawOpen 25 mouthStretch* 20"},
+    {"ch", "jawOpen 10 mouthFunnel 50"},
+    {"ss", "jawOpen 5 mouthStretch* 40 mouthLowerDown* 20"},
+    {"nn", "jawOpen 15 mouthLowerDown* 20"},
+    {"rr", "jawOpen 15 mouthPucker 40"},
     {"sil,neutral,fclallneutral,fclmthneutral,fcleyenatural", ""},
     // Expressions: VRM 0, VRM 1, VRoid.
-    {"joy,happy,fclalljoy", "mouthSmile* .8 cheekSquint* .4"},
-    {"angry,fclallangry", "browDown* mouthFrown* .4 noseSneer* .4"},
-    {"sorrow,sad,fclallsorrow", "browInnerUp .8 mouthFrown* .6"},
-    {"fun,relaxed,fclallfun", "mouthSmile* .5 eyeSquint* .3"},
-    {"surprised,surprise,fclallsurprised", "browInnerUp .8 browOuterUp* .8 eyeWide* .8 jawOpen .4"},
+    {"joy,happy,fclalljoy", "mouthSmile* 80 cheekSquint* 40"},
+    {"angry,fclallangry", "browDown* mouthFrown* 40 noseSneer* 40"},
+    {"sorrow,sad,fclallsorrow", "browInnerUp 80 mouthFrown* 60"},
+    {"fun,relaxed,fclallfun", "mouthSmile* 50 eyeSquint* 30"},
+    {"surprised,surprise,fclallsurprised", "browInnerUp 80 browOuterUp* 80 eyeWide* 80 jawOpen 40"},
     {"blink,fcleyeclose,eyesclosed,upperlidclosed", "eyeBlink*"},
     {"lookup,eyeslookup,eyeup", "eyeLookUp*"},
     {"lookdown,eyeslookdown,eyedown", "eyeLookDown*"},
     {"look left,eyeslook left", "eyeLookOutLeft eyeLookInRight"},
     {"look right,eyeslook right", "eyeLookInLeft eyeLookOutRight"},
     {"smile,fclmthfun,mouthpullup", "mouthSmile*"},
-    {"fclmthjoy", "mouthSmile* .8 jawOpen .4"},
+    {"fclmthjoy", "mouthSmile* 80 jawOpen 40"},
     {"frown,fclmthangry,fclmthsorrow,mouthpulldown", "mouthFrown*"},
-    {"fclmthsurprised", "jawOpen .6 mouthFunnel .3"},
+    {"fclmthsurprised", "jawOpen 60 mouthFunnel 30"},
     {"fclmthclose", "mouthPress*"},
     {"fclmthsmall", "mouthPucker"},
     {"fclbrwangry", "browDown*"},
@@ -106,7 +106,7 @@ const struct {
     {"upperlipup", "mouthUpperUp*"},
     {"lowerlipbackward", "mouthRollLower"},
     {"upperlipbackward", "mouthRollUpper"},
-    {"lowerlipforward,upperlipforward", "mouthFunnel .5"},
+    {"lowerlipforward,upperlipforward", "mouthFunnel 50"},
 };
 
 constexpr float kShare = 0.25f;  ///< of a target's square that a name must ask for
@@ -152,71 +152,61 @@ private:
     }
 };
 
+Sum parseSum(const std::string& text) {
+    Sum sum;
+    std::vector<std::size_t> last;
+    for (std::string word : split(text)) {
+        if (isNumber(word)) {
+            for (const std::size_t shape : last) sum[shape] = 0.01f * float(std::stoi(word));
+            continue;
+        }
+        last.clear();
+        const bool isBoth = word.back() == '*';
+        if (isBoth) word.pop_back();
+        for (std::size_t s = 0; s < kArKit.size(); ++s)
+            if (kArKit[s] == word ||
+                (isBoth && (kArKit[s] == word + "Left" || kArKit[s] == word + "Right")))
+                last.push_back(s);
+        for (const std::size_t shape : last) sum[shape] = 1.0f;
+    }
+    return sum;
+}
+
 /// All known names as sums.
-class Table {
-public:
-    static const Table& get() {
-        static const Table table;
-        return table;
+std::map<std::string, Sum> makeTable() {
+    std::map<std::string, Sum> table;
+    for (std::size_t s = 0; s < kArKit.size(); ++s) {
+        Spelling spelling(kArKit[s]);
+        table[spelling.key()] = {{s, 1.0f}};
+        const bool isDirection = spelling.words.back() == "jaw" || spelling.words.back() == "mouth";
+        if (std::exchange(spelling.sides, "") != "" && !isDirection)
+            table[spelling.key()][s] = 1.0f;
     }
-
-    /// The sum of a name; null where it is not known.
-    const Sum* find(const std::string& key) const {
-        const auto found = _sums.find(key);
-        return found == _sums.end() ? nullptr : &found->second;
-    }
-
-private:
-    Table() {
-        for (std::size_t s = 0; s < kArKit.size(); ++s) {
-            const Spelling spelling(kArKit[s]);
-            _sums[spelling.key()] = {{s, 1.0f}};
-            const bool isDirection =
-                spelling.words.back() == "jaw" || spelling.words.back() == "mouth";
-            if (!spelling.sides.empty() && !isDirection) {
-                const std::string key = spelling.key();
-                _sums[key.substr(0, key.size() - spelling.sides.size())][s] = 1.0f;
-            }
+    for (const auto& row : kRows)
+        for (const std::string& name : split(row.names, ',')) table[name] = parseSum(row.sum);
+    const std::map<std::string, Sum> known = table;
+    for (const auto& [name, sum] : known) {
+        if (name.find(' ') != std::string::npos) continue;
+        // "blink left" by "blink": the shapes of that side, and half of those in the middle.
+        Sum left, right;
+        for (const auto& [shape, weight] : sum) {
+            const bool isLeft = endsWith(kArKit[shape], "Left");
+            const bool isRight = endsWith(kArKit[shape], "Right");
+            if (!isRight) left[shape] = isLeft ? weight : 0.5f * weight;
+            if (!isLeft) right[shape] = isRight ? weight : 0.5f * weight;
         }
-        for (const auto& row : kRows)
-            for (const std::string& name : split(row.names, ',')) _sums[name] = parse(row.sum);
-        const std::map<std::string, Sum> known = _sums;
-        for (const auto& [name, sum] : known)
-            if (name.find(' ') == std::string::npos)
-                for (const char* side : {"Left", "Right"}) addSide(name, sum, side);
+        table.emplace(name + " left", left);
+        table.emplace(name + " right", right);
     }
+    return table;
+}
 
-    static Sum parse(const std::string& text) {
-        Sum sum;
-        std::size_t last[2] = {};
-        for (std::string word : split(text)) {
-            const bool isBoth = word.back() == '*';
-            if (isBoth) word.pop_back();
-            if (word[0] == '.') {
-                for (const std::size_t shape : last) sum[shape] = std::stof(word);
-                continue;
-            }
-            for (int i = 0; i < 2; ++i) {
-                const std::string name = isBoth ? word + (i == 0 ? "Left" : "Right") : word;
-                last[i] =
-                    std::size_t(std::find(kArKit.begin(), kArKit.end(), name) - kArKit.begin());
-                sum[last[i]] = 1.0f;
-            }
-        }
-        return sum;
-    }
-
-    /// "blink left" by "blink": the shapes of that side, and half of those in the middle.
-    void addSide(const std::string& name, const Sum& sum, const std::string& side) {
-        Sum part;
-        for (const auto& [shape, weight] : sum)
-            if (!endsWith(kArKit[shape], side == "Left" ? "Right" : "Left"))
-                part[shape] = endsWith(kArKit[shape], side) ? weight : 0.5f * weight;
-        _sums.emplace(name + (side == "Left" ? " left" : " right"), part);
-    }
-
-    std::map<std::string, Sum> _sums;
-};
+/// The sum of a name; null where it is not known.
+const Sum* findSum(const std::string& key) {
+    static const std::map<std::string, Sum> table = makeTable();
+    const auto found = table.find(key);
+    return found == table.end() ? nullptr : &found->second;
+}
 
 /// What a name means, however it is spelt.
 struct Meaning {
@@ -229,7 +219,7 @@ struct Meaning {
             // One word behind others says little: "Fcl_BRW_Joy" is not "joy".
             const bool isLast = i > 0 && i + 1 == spelling.words.size();
             if (isLast && spelling.words[i - 1] != "viseme" && spelling.words[i - 1] != "v") break;
-            sum = Table::get().find(spelling.key(i));
+            sum = findSum(spelling.key(i));
             if (sum) key = spelling.key(i);
         }
     }
