@@ -10,6 +10,7 @@
 #include <osgSkin/SkinModel>
 #include <osgSkinGpu/GpuCrowd>
 #include <osgSkinGpu/GpuSkin>
+#include <osgSkinGpu/MappedUploads>
 
 #include <osg/GLExtensions>
 #include <osg/MatrixTransform>
@@ -22,6 +23,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <stdexcept>
 
@@ -213,12 +215,14 @@ void benchSingles(const std::string& file, std::size_t count) {
         scene->addChild(place);
     }
     const auto time = [&](const char* what, const std::function<void(double)>& update) {
-        for (const bool gpu : {true, false}) {
-            osgSkin::setGpu(*scene, gpu);
+        for (const char* by : {"card", "processor", "processor, mapped uploads"}) {
+            osgSkin::setMappedUploads(*scene, false);
+            osgSkin::setGpu(*scene, by == std::string("card"));
+            if (std::strstr(by, "mapped")) osgSkin::setMappedUploads(*scene, true);
             const double took =
                 timeFrames(*scene, 0.5 * spacing * std::sqrt(double(count)), update);
-            std::printf("%5zu characters, %s%-18s %9.2f ms  %8.4f us a character\n", count,
-                        gpu ? "card     " : "processor", what, took, 1000.0 * took / double(count));
+            std::printf("%5zu characters, %-25s%-18s %9.2f ms  %8.4f us a character\n", count, by,
+                        what, took, 1000.0 * took / double(count));
         }
     };
     time("", {});

@@ -13,8 +13,8 @@
 ///        file), seen by one camera and by four
 /// \param maxTriangles of the crowds, which are drawn with it once more; 0: none
 /// \param singles number of characters that are loaded one by one, each with its own skeleton, drawn
-///        by the graphics card and by the processor, and again with 52 morph targets on the largest
-///        skin of each; 0: none
+///        by the graphics card and by the processor, which uploads in both ways, and again with 52
+///        morph targets on the largest skin of each; 0: none
 /// \throw std::runtime_error where there is no context or the file cannot be read
 void benchFrames(const std::string& file, const std::vector<std::size_t>& crowds,
                  std::size_t maxTriangles, std::size_t singles);

@@ -24,7 +24,7 @@ std::vector<Vector> readBack(const osg::Array& array, unsigned int id) {
     const osg::GLBufferObject* buffer = array.getBufferObject()->getGLBufferObject(id);
     if (!buffer) throw std::runtime_error("nothing was computed");
     gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, buffer->getGLObjectID());
-    gl.glGetBufferSubData(GL_ARRAY_BUFFER_ARB, 0,
+    gl.glGetBufferSubData(GL_ARRAY_BUFFER_ARB, buffer->getOffset(array.getBufferIndex()),
                           static_cast<GLsizeiptr>(result.size() * sizeof(Vector)), result.data());
     gl.glBindBuffer(GL_ARRAY_BUFFER_ARB, 0);
     return result;
@@ -104,20 +104,24 @@ osg::ref_ptr<osgUtil::CullVisitor> GpuStage::cullVisitor() {
 }
 
 GpuStage::Posed GpuStage::computed(const osgSkin::DeformableSkin& skin) {
-    EglWindow& window = *_windows.front();
     const osg::ref_ptr<osgUtil::CullVisitor> cv = cullVisitor();
     const osg::Geometry* drawn =
         skin.getDrawBackend() ? skin.getDrawBackend()->cull(skin, *cv) : nullptr;
     if (!drawn) throw std::runtime_error("the context does not compute skins");
+    return onCard(*drawn, skin.getTangentAttribute(), 0);
+}
+
+GpuStage::Posed GpuStage::onCard(const osg::Geometry& drawn, int tangentAttribute,
+                                 std::size_t context) {
+    EglWindow& window = *_windows[context];
     if (!window.makeCurrent()) throw std::runtime_error("the context cannot be made current");
     const unsigned int id = window.getState()->getContextID();
     Posed posed;
-    posed.positions = readBack<osg::Vec3>(*drawn->getVertexArray(), id);
-    posed.normals = readBack<osg::Vec3>(*drawn->getNormalArray(), id);
-    const int attribute = skin.getTangentAttribute();
-    if (attribute >= 0)
+    posed.positions = readBack<osg::Vec3>(*drawn.getVertexArray(), id);
+    posed.normals = readBack<osg::Vec3>(*drawn.getNormalArray(), id);
+    if (tangentAttribute >= 0)
         posed.tangents = readBack<osg::Vec4>(
-            *drawn->getVertexAttribArray(static_cast<unsigned int>(attribute)), id);
+            *drawn.getVertexAttribArray(static_cast<unsigned int>(tangentAttribute)), id);
     window.releaseContext();
     return posed;
 }

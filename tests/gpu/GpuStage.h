@@ -43,6 +43,8 @@ public:
         std::vector<osg::Vec4> tangents;
     };
     Posed computed(const osgSkin::DeformableSkin& skin);
+    /// The arrays of a drawn geometry as a context's buffers have them.
+    Posed onCard(const osg::Geometry& drawn, int tangentAttribute, std::size_t context);
 
     /// A visitor for cull traversals in the first context, which sees everything and draws nothing.
     osg::ref_ptr<osgUtil::CullVisitor> cullVisitor();

@@ -131,6 +131,10 @@ std::string brokenPrimitive(const osg::Geometry& geometry, std::size_t vertices)
 
 DeformableSkin::DrawBackend::~DrawBackend() = default;
 
+bool DeformableSkin::DrawBackend::upload(const DeformableSkin&, const osg::Geometry&) {
+    return false;
+}
+
 DeformableSkin::DeformableSkin() {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
@@ -259,6 +263,7 @@ void DeformableSkin::makeBuffers() {
 }
 
 void DeformableSkin::setDrawBackend(DrawBackend* drawer) {
+    uploadAgain();
     _backend = drawer;
     if (!_backend || !_model) return;
     _backend->skinChanged(*this);
@@ -381,6 +386,7 @@ void DeformableSkin::applyDrawSettings() {
 void DeformableSkin::setDrawCallback(DrawCallback* callback) {
     osg::Drawable::setDrawCallback(callback);
     applyDrawSettings();
+    uploadAgain();
 }
 
 void DeformableSkin::poseChanged() {
@@ -438,21 +444,24 @@ void DeformableSkin::deform() const {
     job.positionCount = vertices.size();
     job.normals = asGlm(normals.asVector().data());
     job.normalCount = normals.size();
+    osg::Vec4Array* posed = nullptr;
     if (const SkinTangents* const rest = tangents()) {
-        auto& posed = static_cast<osg::Vec4Array&>(
-            *buffer.getVertexAttribArray(static_cast<unsigned int>(_tangentAttribute)));
+        posed = static_cast<osg::Vec4Array*>(
+            buffer.getVertexAttribArray(static_cast<unsigned int>(_tangentAttribute)));
         job.restTangents = rest;
-        job.tangents = asGlm(posed.asVector().data());
-        job.tangentCount = posed.size();
-        posed.dirty();
+        job.tangents = asGlm(posed->asVector().data());
+        job.tangentCount = posed->size();
     }
     if (_pool)
         _pool->run(&job, 1);
     else
         job.run();
-    vertices.dirty();
-    normals.dirty();
-    buffer.dirtyGLObjects(); // else a vertex array object does not upload them
+    if (!_backend || !_backend->upload(*this, buffer)) {
+        vertices.dirty();
+        normals.dirty();
+        if (posed) posed->dirty();
+        buffer.dirtyGLObjects(); // else a vertex array object does not upload them
+    }
     _current = next;
     _handedOut = false;
     ++_deformCount;

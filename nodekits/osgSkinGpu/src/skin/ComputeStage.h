@@ -74,8 +74,8 @@ private:
     mutable std::atomic<unsigned int> _count{0};
 };
 
-/// The render bins of dispatches and of the barrier, before all other bins of a stage.
-enum ComputeBin { kComputeBin = -1000, kBarrierBin };
+/// The render bins of uploads, dispatches and the barrier, before all other bins of a stage.
+enum ComputeBin { kUploadBin = -1001, kComputeBin, kBarrierBin };
 
 /// Puts a state's drawables into one of these bins, whatever the states above set.
 void setUpBin(osg::StateSet& state, ComputeBin bin);
