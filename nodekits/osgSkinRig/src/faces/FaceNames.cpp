@@ -179,7 +179,7 @@ std::map<std::string, Sum> makeTable() {
         Spelling spelling(kArKit[s]);
         table[spelling.key()] = {{s, 1.0f}};
         const bool isDirection = spelling.words.back() == "jaw" || spelling.words.back() == "mouth";
-        if (std::exchange(spelling.sides, "") != "" && !isDirection)
+        if (!std::exchange(spelling.sides, "").empty() && !isDirection)
             table[spelling.key()][s] = 1.0f;
     }
     for (const auto& row : kRows)
