@@ -133,9 +133,13 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 function(osgskin_plugin target)
   set(osgskin_plugins "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+  set(prefix "")
   if(WIN32) # beside the DLLs; a debug build of OSG adds a d to names
     set(osgskin_plugins "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
     set_target_properties(${target} PROPERTIES DEBUG_POSTFIX d)
+  endif()
+  if(MINGW) # OSG adds this to the names of its plug-ins, too
+    set(prefix mingw_)
   endif()
   osgskin_settings(${target})
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/osgPlugin/common/KitCheck.cpp")
@@ -145,7 +149,7 @@ function(osgskin_plugin target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES
-    PREFIX "" INSTALL_RPATH "${osgskin_origin}/.."
+    PREFIX "${prefix}" INSTALL_RPATH "${osgskin_origin}/.."
     LIBRARY_OUTPUT_DIRECTORY "${osgskin_plugins}/${OSGSKIN_OSG_PLUGINS}")
 endfunction()
 

@@ -3,6 +3,7 @@
 // programs may run at the same time.
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -11,17 +12,21 @@
 namespace {
 
 /// Sets testing::TempDir() from before the program's other objects are constructed until the
-/// program ends; /tmp/ if the folder cannot be made.
+/// program ends; the system's folder if none can be made.
 class TempFolder {
 public:
     TempFolder() {
-        const char* const given = std::getenv("TMPDIR");
-        _path = given != nullptr && *given != '\0' ? given : "/tmp";
-        _path += "/osgskin-test-XXXXXX";
-        if (mkdtemp(_path.data()) != nullptr)
-            setenv("TEST_TMPDIR", _path.c_str(), 1);
-        else
-            _path.clear();
+        std::error_code failure;
+        const std::filesystem::path all = std::filesystem::temp_directory_path(failure);
+        std::random_device random;
+        std::filesystem::path path = all / ("osgskin-test-" + std::to_string(random()));
+        if (failure || !std::filesystem::create_directory(path, failure)) return;
+        _path = std::move(path);
+#ifdef _WIN32
+        _putenv_s("TEST_TMPDIR", _path.string().c_str());
+#else
+        setenv("TEST_TMPDIR", _path.c_str(), 1);
+#endif
     }
     ~TempFolder() {
         std::error_code ignored;
@@ -31,7 +36,7 @@ public:
     TempFolder& operator=(const TempFolder&) = delete;
 
 private:
-    std::string _path;
+    std::filesystem::path _path;
     const pid_t _maker = getpid(); ///< not its forked children
 };
 

@@ -15,7 +15,6 @@
 
 #include <osgAnimation/Channel>
 #include <osgDB/Options>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +25,10 @@
 #include <limits>
 #include <string>
 #include <vector>
+
+#ifndef _WIN32
+#include <sys/resource.h>
+#endif
 
 namespace {
 
@@ -85,11 +88,15 @@ std::string escaped(const std::string& bytes) {
     return result;
 }
 
-/// Peak memory of this program, MB.
+/// Peak memory of this program, MB; 0 on Windows.
 long peakMegabytes() {
+#ifdef _WIN32
+    return 0;
+#else
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss / 1024;
+#endif
 }
 
 void expectColumn(const std::string& path) {
