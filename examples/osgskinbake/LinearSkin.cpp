@@ -362,13 +362,13 @@ private:
         // refine() may have found a helper that was made just now.
         if (std::find(candidates.begin(), candidates.end(), entry) != candidates.end())
             return false;
-        const auto near = std::ptrdiff_t(std::min(candidates.size(), kNear - 1));
+        const auto nearest = std::ptrdiff_t(std::min(candidates.size(), kNear - 1));
         if (candidates.size() >= kNear) {
             if (candidates[kNear - 1] <= entry) return false;
-            candidates.erase(candidates.begin() + near);
+            candidates.erase(candidates.begin() + nearest);
         }
         const auto begin = candidates.begin();
-        candidates.insert(std::upper_bound(begin, begin + near, entry), entry);
+        candidates.insert(std::upper_bound(begin, begin + nearest, entry), entry);
         return true;
     }
 

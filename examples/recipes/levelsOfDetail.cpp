@@ -30,9 +30,9 @@ osg::ref_ptr<osg::Node> makeLevels(const std::string& fineFile, const std::strin
 /// Two such figures, 1.5 metres apart. The coarse body, for the same skeleton, is coarse.skin.
 osg::ref_ptr<osg::Node> levelsOfDetail(const std::string& file) {
     osg::ref_ptr<osg::Group> scene = new osg::Group;
-    for (const double far : {0.0, 1.0}) {
+    for (const double step : {0.0, 1.0}) {
         const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(osg::Matrix::translate(0.8 * far, 1.5 * far, 0.0));
+            new osg::MatrixTransform(osg::Matrix::translate(0.8 * step, 1.5 * step, 0.0));
         place->addChild(makeLevels(file, file.substr(0, file.rfind('/') + 1) + "coarse.skin"));
         scene->addChild(place);
     }

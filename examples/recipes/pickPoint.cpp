@@ -13,8 +13,8 @@ namespace {
 struct Pick : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv); // the figure is now posed for this frame
-        const osg::Vec3d chest = node->getBound().center() + osg::Vec3(0, 0, 0.3f), far(0, 50, 0);
-        const osg::ref_ptr line = new osgUtil::LineSegmentIntersector(chest - far, chest + far);
+        const osg::Vec3d chest = node->getBound().center() + osg::Vec3(0, 0, 0.3f), away(0, 50, 0);
+        const osg::ref_ptr line = new osgUtil::LineSegmentIntersector(chest - away, chest + away);
         osgUtil::IntersectionVisitor visitor(line);
         node->accept(visitor);
         const auto at = line->getFirstIntersection();

@@ -64,9 +64,9 @@ TEST(BendTwist, RecomposesAMillionRandomRotations) {
 
 TEST(BendTwist, RecomposesNearEdgeCases) {
     std::mt19937_64 random(2);
-    for (const double near : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-30, 0.0})
-        for (const double bend : {near, kPi - near, kPi / 2})
-            for (const double twist : {near, -near, kPi - near, -kPi + near, 1.0})
+    for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-30, 0.0})
+        for (const double bend : {gap, kPi - gap, kPi / 2})
+            for (const double twist : {gap, -gap, kPi - gap, -kPi + gap, 1.0})
                 for (int i = 0; i < 50; ++i) {
                     const glm::dvec3 w = test::randomUnit(random);
                     const glm::dvec3 v = glm::normalize(glm::cross(w, test::randomUnit(random)));

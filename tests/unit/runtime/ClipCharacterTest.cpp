@@ -72,7 +72,7 @@ namespace {
 /// A cull traversal that keeps what it would draw, and where.
 struct Culled {
     std::vector<std::pair<const osg::Drawable*, osg::Matrixd>> drawn;
-    double near = 0.0, far = 0.0;
+    double nearPlane = 0.0, farPlane = 0.0;
 
     Culled(osg::Node& scene, const osg::Matrixd& view) {
         const osg::ref_ptr<osgUtil::CullVisitor> cv = new osgUtil::CullVisitor;
@@ -84,8 +84,8 @@ struct Culled {
         cv->pushProjectionMatrix(new osg::RefMatrix(osg::Matrixd::perspective(40, 1, 0.1, 1e3)));
         cv->pushModelViewMatrix(new osg::RefMatrix(view), osg::Transform::ABSOLUTE_RF);
         scene.accept(*cv);
-        near = cv->getCalculatedNearPlane();
-        far = cv->getCalculatedFarPlane();
+        nearPlane = cv->getCalculatedNearPlane();
+        farPlane = cv->getCalculatedFarPlane();
         for (const osgUtil::StateGraph* states : stage->getStateGraphList())
             for (const auto& leaf : states->_leaves)
                 drawn.emplace_back(leaf->getDrawable(), *leaf->_modelview);
@@ -137,9 +137,9 @@ TEST(ClipCharacter, CullsRigidPartsLikeOtherTransforms) {
             for (int k = 0; k < 16; ++k)
                 EXPECT_NEAR(fast.drawn[i].second.ptr()[k], slow.drawn[i].second.ptr()[k], 1e-9);
         }
-        EXPECT_LE(fast.near, slow.near + 1e-4);
-        EXPECT_GE(fast.far, slow.far - 1e-4);
-        EXPECT_LE(fast.far, slow.far + 2.0 * all.radius());
+        EXPECT_LE(fast.nearPlane, slow.nearPlane + 1e-4);
+        EXPECT_GE(fast.farPlane, slow.farPlane - 1e-4);
+        EXPECT_LE(fast.farPlane, slow.farPlane + 2.0 * all.radius());
     }
     rigid.setCullCallback(nullptr);
     const osg::Matrixd seen = osg::Matrixd::lookAt(centre + osg::Vec3d(0, -60, 10), centre, up);

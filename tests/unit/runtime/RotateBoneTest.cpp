@@ -109,12 +109,12 @@ INSTANTIATE_TEST_SUITE_P(Cases, Reach, testing::ValuesIn(kCases),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ReachRotations, AreIdentitiesForInvalidInput) {
-    const Vec3d nan(kNan, 0, 0), far(1e308, 1e308, 0);
+    const Vec3d nan(kNan, 0, 0), remote(1e308, 1e308, 0);
     const std::vector<Limb> limbs{{nan, Vec3d(1, 0, 0), Vec3d(2, 0, 0)},
                                   {Vec3d(), nan, Vec3d(2, 0, 0)},
                                   {Vec3d(), Vec3d(), Vec3d(2, 0, 0)},
                                   {Vec3d(), Vec3d(1, 0, 0), Vec3d(1, 0, 0)},
-                                  {Vec3d(), far, Vec3d(1, 0, 0)}};
+                                  {Vec3d(), remote, Vec3d(1, 0, 0)}};
     const auto expectNone = [](const LimbRotations& found) {
         EXPECT_FALSE(found.reaches);
         EXPECT_TRUE(found.lower.zeroRotation());

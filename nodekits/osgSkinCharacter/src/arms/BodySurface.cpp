@@ -16,7 +16,7 @@ SkinPoints SkinPoints::spread(std::size_t most) const {
     // samples.
     const std::size_t step = std::max<std::size_t>(1, size() / 20000);
     SkinPoints result;
-    std::vector<double> far(size(), std::numeric_limits<double>::infinity());
+    std::vector<double> distances(size(), std::numeric_limits<double>::infinity());
     std::size_t next = 0;
     while (result.size() < most) {
         result.add(places[next], normals[next], joints[next]);
@@ -24,9 +24,9 @@ SkinPoints SkinPoints::spread(std::size_t most) const {
         double largest = 0.0;
         for (std::size_t i = 0; i < size(); i += step) {
             const glm::dvec3 d = places[i] - last;
-            far[i] = std::min(far[i], glm::dot(d, d));
-            if (far[i] <= largest) continue;
-            largest = far[i];
+            distances[i] = std::min(distances[i], glm::dot(d, d));
+            if (distances[i] <= largest) continue;
+            largest = distances[i];
             next = i;
         }
         if (largest <= 0.0) break; // only duplicates are left

@@ -279,6 +279,9 @@ osg::BoundingBox boundsOf(const SkinMoment& moment) {
 
 } // namespace
 
+ClipCharacter::ClipCharacter() = default;
+ClipCharacter::~ClipCharacter() = default;
+
 ClipCharacter::Appearance ClipCharacter::appearanceOf(const osg::NodePath& path) {
     Appearance result;
     for (std::size_t i = 0; i < path.size(); ++i) {

@@ -119,9 +119,9 @@ void WalkPlayer::stepOnTheSpot(double dt) {
         return flat(foot.offset).length() > kMaxOffset * _leg || std::abs(foot.turn) > kMaxTurn;
     };
     if (_feet[0].step < 0.0 && _feet[1].step < 0.0) {
-        const std::size_t far =
+        const std::size_t farther =
             flat(_feet[0].offset).length() > flat(_feet[1].offset).length() ? 0 : 1;
-        const std::size_t next = isOff(_feet[far]) ? far : 1 - far;
+        const std::size_t next = isOff(_feet[farther]) ? farther : 1 - farther;
         if (!isOff(_feet[next])) return;
         _feet[next].step = 0.0;
         _feet[next].stepOffset = _feet[next].offset;
