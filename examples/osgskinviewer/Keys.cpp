@@ -50,7 +50,8 @@ const char* keysHelp() {
            "g      regions              b t  bend, twist ratios\n"
            "j J    next joint, last one\n"
            "k      skeleton             w    wireframe\n"
-           "x      bounds               i    this line below\n"
+           "x      bounds               c    hit shapes\n"
+           "i      this line below\n"
            "s      OSG's statistics     h    these keys";
 }
 
@@ -146,6 +147,9 @@ bool press(Stage& stage, int key) {
         return true;
     case 'x':
         toggle(settings.bounds);
+        return true;
+    case 'c':
+        stage.showHitShapes(!settings.hitShapes);
         return true;
     case 'i':
         toggle(settings.status);

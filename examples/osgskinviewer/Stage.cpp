@@ -10,9 +10,11 @@
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/SetMorph>
 #include <osgSkinBind/ShowRegions>
+#include <osgSkinRig/HitShapes>
 
 #include <osg/Array>
 #include <osg/FrameStamp>
+#include <osg/LineWidth>
 #include <osg/NodeCallback>
 #include <osg/PolygonMode>
 #include <osg/Transform>
@@ -282,6 +284,16 @@ void Stage::turnNormals(bool on) {
     settings.turnedNormals = on;
     _normals->showTurned(on);
     tense(settings.tensed);
+}
+
+void Stage::showHitShapes(bool on) {
+    settings.hitShapes = on;
+    if (!_hitShapes) {
+        _hitShapes = osgSkin::HitShapes::addTo(*_figure.root)->makeLines();
+        _hitShapes->getOrCreateStateSet()->setAttribute(new osg::LineWidth(1.5f));
+        _root->addChild(_hitShapes);
+    }
+    _hitShapes->setNodeMask(on ? ~0u : 0u);
 }
 
 void Stage::tense(bool on) {

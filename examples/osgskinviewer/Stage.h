@@ -74,6 +74,7 @@ struct Settings {
     bool skeleton = false;
     bool wireframe = false;
     bool bounds = false;
+    bool hitShapes = false;
     bool help = false;
     bool morphs = false; ///< the list of morph targets
     bool status = true;
@@ -107,6 +108,8 @@ public:
     /// Rotates normals with their vertices instead of using surface normals, if the character has
     /// both.
     void turnNormals(bool on);
+    /// Shows the figure's HitShapes, which are fitted when they are first shown.
+    void showHitShapes(bool on);
     /// Tenses or relaxes all muscles.
     void tense(bool on);
     /// Selects the next (+1) or previous (-1) joint that has partial ratios.
@@ -153,6 +156,7 @@ private:
     PlayedExtent _extent;               ///< of the current motion
     double _aspect;                     ///< width / height of the picture
     osg::ref_ptr<osg::StateSet> _state; ///< of the figure
+    osg::ref_ptr<osg::Node> _hitShapes; ///< null: not fitted yet
     osg::ref_ptr<osg::Node> _help;
     osg::ref_ptr<osgText::Text> _status, _morphList;
 };

@@ -44,6 +44,9 @@ void addLayers();
 /// Adds the benchmark of poses that are transferred one at a time, "live".
 void addLive();
 
+/// Adds the benchmarks of shapes for limbs, whose names begin with "hits".
+void addHits();
+
 } // namespace bench
 
 #endif

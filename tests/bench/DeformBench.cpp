@@ -384,6 +384,7 @@ int main(int argc, char** argv) {
         ->Unit(benchmark::kMicrosecond);
     bench::addLayers();
     bench::addLive();
+    bench::addHits();
     bench::addLoads();
     bench::addLoadedFrames();
     bench::addWalkers();

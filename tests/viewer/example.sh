@@ -20,7 +20,7 @@ cat >"$folder/two.skin" <<END
 END
 
 # First the line of text is hidden: every later difference is in the scene.
-seen='in234gbtjJk1uwxxwkth.,><0m'
+seen='in234gbtjJk1uwxxccwkth.,><0m'
 said='r-+ '
 "$program" "$folder/two.skin" --motion throw --joint LeftHand --at 1.1 --paused \
   --shapes fast --muscles on --window 0 0 320 280 --keys "$seen$said" \
