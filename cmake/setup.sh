@@ -5,7 +5,7 @@
 osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev openscenegraph
   libglm-dev libcgal-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libstb-dev zlib1g-dev
   libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev libdraco-dev libgtest-dev
-  libbenchmark-dev libegl-dev liblo-dev"
+  libbenchmark-dev libegl-dev liblo-dev libbullet-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
 osgskin_test_packages="libegl1 binutils dpkg-dev file locales assimp-testmodels python3"
 

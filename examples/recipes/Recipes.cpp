@@ -25,6 +25,7 @@ Scene convertScene(File);
 Scene deformOnCard(File);
 Scene driveBone(File);
 Scene fadeClips(File);
+Scene fallDownStairs(File);
 Scene largeWorld(File);
 Scene levelsOfDetail(File);
 Scene loadAndPlay(File);
@@ -146,6 +147,17 @@ const std::vector<Recipe>& recipes() {
          true},
 #ifdef OSGSKIN_LIBLO
         {"receivePoses", perform, "walker.skin", 0.4, kFigure, Floor::Shadowed, false, {}, true},
+#endif
+#ifdef OSGSKIN_BULLET
+        {"fallDown",
+         fallDownStairs,
+         "pedestrian.skin",
+         1.1,
+         {Vec3d(-5.2, -4.6, 2.6), Vec3d(0, -1.2, 0.95)},
+         Floor::Plain,
+         false,
+         {},
+         true},
 #endif
         {"attachSword",
          attachSword,
