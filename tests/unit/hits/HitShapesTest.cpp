@@ -181,9 +181,9 @@ TEST_P(Fitted, ContainsTheSkinInAllPoses) {
     for (const auto& limb : hits->limbs()) shapes += limb.shapes.size();
     const double volumes = volumeOf(*hits) / volumeOf(character);
     const double filled = filledBy(*hits) / volumeOf(character);
-    EXPECT_LE(filled, 1.6);
+    EXPECT_LE(filled, 1.58);
     EXPECT_GE(filled, 0.95) << "hollow";
-    EXPECT_LE(shapes, 170u);
+    EXPECT_LE(shapes, 116u);
     double least = insideOf(character, *hits), sum = least;
     int poses = 1; // the rest pose
     for (const Frames& frames : GetParam().frames) {
