@@ -161,14 +161,24 @@ void orientShells(WeldedMesh& mesh) {
 } // namespace
 
 std::vector<DirectedEdge> edgesOf(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    std::vector<DirectedEdge> edges;
-    edges.reserve(6 * triangles.size());
+    // Each vertex's edges side by side, and then sorted alone.
+    std::vector<std::size_t> end; // of those of each vertex
+    for (const auto& t : triangles)
+        for (const std::uint32_t v : t) {
+            if (v >= end.size()) end.resize(v + std::size_t(1), 0);
+            end[v] += 2;
+        }
+    std::size_t all = 0;
+    for (std::size_t& of : end) all = std::exchange(of, all) + all;
+    std::vector<DirectedEdge> edges(all);
+    const auto add = [&](std::uint32_t from, std::uint32_t to) { edges[end[from]++] = {from, to}; };
     for (const auto& t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-            edges.emplace_back(t[k], t[(k + 1) % 3]);
-            edges.emplace_back(t[(k + 1) % 3], t[k]);
+            add(t[k], t[(k + 1) % 3]);
+            add(t[(k + 1) % 3], t[k]);
         }
-    std::sort(edges.begin(), edges.end());
+    const auto at = [&](std::size_t i) { return edges.begin() + static_cast<std::ptrdiff_t>(i); };
+    for (std::size_t v = 0; v < end.size(); ++v) std::sort(at(v > 0 ? end[v - 1] : 0), at(end[v]));
     return edges;
 }
 

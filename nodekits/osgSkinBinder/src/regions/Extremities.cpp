@@ -67,7 +67,7 @@ public:
                 {glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
             const double longest =
                 std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-            _triangles.push_back({nearest - longest, t});
+            _triangles.push_back({nearest - longest, longest, t});
         }
     }
 
@@ -83,7 +83,8 @@ public:
                              _triangles.end());
         }
         std::map<Edge, std::vector<Edge>> next; // a triangle joins two crossed edges
-        for (const auto& [away, t] : _triangles) {
+        for (const auto& [away, longest, t] : _triangles) {
+            if (std::abs(plane.height(_mesh.positions[t[0]])) > 1.001 * longest) continue;
             for (const std::uint32_t v : t) _heights[v] = plane.height(_mesh.positions[v]);
             const bool above[3] = {_heights[t[0]] > 0.0, _heights[t[1]] > 0.0,
                                    _heights[t[2]] > 0.0};
@@ -134,7 +135,8 @@ private:
     static constexpr double kShorter = 0.9;
 
     struct Triangle {
-        double away; ///< at most its distance from the centre
+        double away;    ///< at most its distance from the centre
+        double longest; ///< edge
         std::array<std::uint32_t, 3> corners;
     };
 
