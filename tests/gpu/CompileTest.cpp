@@ -61,6 +61,11 @@ protected:
         const std::size_t before = countPrograms(gl);
         GetParam()(*scene, info);
         EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+        // Display lists that are compiled next read the processor's memory.
+        context.getState()->unbindVertexBufferObject();
+        GLint bound = -1;
+        glGetIntegerv(GL_ARRAY_BUFFER_BINDING_ARB, &bound);
+        EXPECT_EQ(bound, 0) << "left bound, without osg::State";
         compiled = countPrograms(gl);
         EXPECT_GT(compiled, before);
         root->addChild(scene);

@@ -261,9 +261,11 @@ public:
         _state->setAttribute(new osg::ShaderStorageBufferBinding(kCommandBuffer, _commands), ours);
         _state->setAttribute(new osg::ShaderStorageBufferBinding(kVisibleBuffer, &draws.list()),
                              ours);
-        const osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
+        // Not a vertex buffer, which OSG would leave bound for the arrays of the next drawable.
+        const osg::ref_ptr<osg::ShaderStorageBufferObject> buffer =
+            new osg::ShaderStorageBufferObject;
         buffer->setUsage(GL_DYNAMIC_COPY_ARB);
-        _fit->setVertexBufferObject(buffer);
+        _fit->setBufferObject(buffer);
         _state->setAttribute(new osg::ShaderStorageBufferBinding(kFitBuffer, _fit), ours);
     }
 
