@@ -28,8 +28,8 @@ struct SceneSkeleton {
 };
 
 /// The joint nodes: bones, and nodes above or below them that are animated, constrained or sources
-/// of constraints. Other animated nodes of a scene with a skin (a camera, a door) are not joints; in
-/// a scene without a skin, all animated nodes are; in one without a mesh or a clip, all nodes.
+/// of constraints. Other animated nodes of a scene with a skin (a camera, a door) are not joints;
+/// in a scene without a skin, all animated nodes are; in one without a mesh or a clip, all nodes.
 std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind& bind);
 
 /// Finds the joints in the bind pose; no joint if the scene has none. Nothing is checked.
