@@ -115,9 +115,11 @@ std::array<Range, 3> smallBox(const Points& local, std::size_t lost) {
                 ++first[face];
     }
     std::array<Range, 3> result{};
-    for (int axis = 0; axis < 3; ++axis)
-        result[std::size_t(axis)] = {coordinate(2 * axis, first[std::size_t(2 * axis)]),
-                                     coordinate(2 * axis + 1, first[std::size_t(2 * axis + 1)])};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int low = 2 * axis, high = low + 1;
+        result[std::size_t(axis)] = {coordinate(low, first[std::size_t(low)]),
+                                     coordinate(high, first[std::size_t(high)])};
+    }
     return result;
 }
 
