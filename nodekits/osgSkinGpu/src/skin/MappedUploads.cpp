@@ -46,6 +46,8 @@
 namespace osgSkin {
 namespace {
 
+using namespace osg; // GLsync, GLintptr and GLsizeiptr, where gl.h has none (Windows)
+
 std::atomic<unsigned int>& mappedCount() {
     static std::atomic<unsigned int> count{0};
     return count;
