@@ -156,7 +156,7 @@ TEST_F(ReceivePoses, HoldsThePoseWhenPacketsAreLost) {
     raise(90.0);
     const osg::Vec3d arm = armAt(0.34);
     for (int i = 0; i < 60; ++i) EXPECT_LT(angle(armAt(0.35 + i / 60.0), arm), 1e-3);
-    // What comes after the pause does not jump.
+    // The figure fades to the first pose after a pause.
     Performer(server->port()).send(3.0, raised(0.0));
     EXPECT_LT(angle(armAt(1.35), arm), 12.0);
 }

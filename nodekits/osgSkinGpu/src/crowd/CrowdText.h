@@ -15,8 +15,8 @@ enum CrowdUnit { kCrowdModelUnit = 10, kCrowdClipUnit, kCrowdInstanceUnit, kCrow
 /// Buffer indices of cullProgram().
 enum CullBuffer { kCommandBuffer, kVisibleBuffer, kFitBuffer };
 
-/// What a dispatch of cullProgram() does: the first two find how far the sizes of levels are raised
-/// for a limit of triangles.
+/// The passes of cullProgram(). With a limit of triangles, the last two come first: they find by
+/// how much the sizes of levels are raised.
 enum CullStep { kListMembers, kCountSizes, kFitLevels };
 
 constexpr unsigned int kMaxLevels = 8;

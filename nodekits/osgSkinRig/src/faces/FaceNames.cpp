@@ -208,7 +208,7 @@ const Sum* findSum(const std::string& key) {
     return found == table.end() ? nullptr : &found->second;
 }
 
-/// What a name means, however it is spelt.
+/// The meaning of a name, in any spelling.
 struct Meaning {
     explicit Meaning(const std::string& name) : key(name) {
         if (std::any_of(name.begin(), name.end(), [](char c) { return (c & 0x80) != 0; }))

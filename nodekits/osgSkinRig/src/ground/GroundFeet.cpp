@@ -2,6 +2,7 @@
 #include <osgSkinRig/GroundFeet>
 
 #include "ground/LegsOnGround.h"
+#include "skeleton/BoneCallbacks.h"
 #include "walk/GaitCycle.h"
 #include "walk/Soles.h"
 
@@ -26,16 +27,6 @@ namespace osgSkin {
 namespace {
 
 constexpr double kRange = 0.6; ///< leg lengths above and below the clips' floor
-
-class FindBones : public osg::NodeVisitor {
-public:
-    FindBones() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::MatrixTransform& node) override {
-        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) bones[bone->getName()] = bone;
-        traverse(node);
-    }
-    std::map<std::string, osgAnimation::Bone*> bones;
-};
 
 bool intersect(osg::Node& node, osg::Node::NodeMask mask, const osg::Vec3d& above,
                const osg::Vec3d& below, GroundFeet::Surface& surface) {
@@ -72,8 +63,7 @@ osg::ref_ptr<GroundFeet> GroundFeet::addTo(osg::Node& character) {
     const osg::ref_ptr<ClipCharacter> parts = ClipCharacter::create(character);
     const RestSkeleton rest = readSkeleton(parts->skeleton());
     const JointRoles roles = recogniseJoints(rest);
-    FindBones found;
-    parts->skeleton().accept(found);
+    const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(parts->skeleton());
     const auto jointOf = [&](const std::string& role) {
         const int joint = roles.joint(role);
         if (joint < 0)
@@ -82,8 +72,8 @@ osg::ref_ptr<GroundFeet> GroundFeet::addTo(osg::Node& character) {
     };
     const auto boneOf = [&](int joint) {
         const std::string& name = rest.joints[static_cast<std::size_t>(joint)].name;
-        const auto bone = found.bones.find(name);
-        if (bone == found.bones.end()) throw Error("ground: no bone \"" + name + "\"");
+        const auto bone = bones.find(name);
+        if (bone == bones.end()) throw Error("ground: no bone \"" + name + "\"");
         return bone->second;
     };
     const osg::ref_ptr<GroundFeet> result = new GroundFeet;
@@ -169,12 +159,11 @@ bool GroundFeet::findBones(osgAnimation::Bone& top) {
             return std::all_of(leg.bones.begin(), leg.bones.end(), isThere);
         }))
         return true;
-    FindBones found;
-    top.accept(found);
+    const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(top);
     for (Leg& leg : _legs)
         for (std::size_t i = 0; i < leg.names.size(); ++i) {
-            const auto bone = found.bones.find(leg.names[i]);
-            if (bone == found.bones.end()) return false;
+            const auto bone = bones.find(leg.names[i]);
+            if (bone == bones.end()) return false;
             leg.bones[i] = bone->second;
         }
     _top = &top;

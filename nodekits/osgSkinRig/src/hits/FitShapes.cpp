@@ -19,10 +19,10 @@ namespace {
 using Points = std::vector<glm::dvec3>;
 using Shape = HitShapes::Shape;
 
-constexpr double kThin = 1e-4;        ///< of the largest half length: the smallest one
-constexpr double kLeastSaving = 0.03; ///< of a shape's volume, by its division
+constexpr double kThin = 1e-4;      ///< of the largest half length: the smallest one
+constexpr double kMinSaving = 0.03; ///< of a division, as a share of the volume
 constexpr int kCircleSteps = 20;
-constexpr std::size_t kLeastPoints = 8; ///< of a slice
+constexpr std::size_t kMinPoints = 8; ///< in a slice
 
 /// How many points of a surface may stick out.
 std::size_t lostOf(const Points& points, double inside) {
@@ -298,7 +298,7 @@ struct Division {
 /// would have less volume.
 Division divide(const Piece& piece, double inside) {
     Division best;
-    best.saving = kLeastSaving * piece.fit.volume;
+    best.saving = kMinSaving * piece.fit.volume;
     std::vector<glm::dvec3> normals{piece.across};
     if (piece.across == glm::dvec3(0.0))
         normals = {piece.fit.axes[0], piece.fit.axes[1], piece.fit.axes[2]};
@@ -310,7 +310,7 @@ Division divide(const Piece& piece, double inside) {
         }
         for (const double at : {0.25, 0.5, 0.75}) {
             std::array<LimbSurface, 2> sides = cut(piece.surface, normal, glm::mix(low, high, at));
-            if (std::min(sides[0].points.size(), sides[1].points.size()) < kLeastPoints) continue;
+            if (std::min(sides[0].points.size(), sides[1].points.size()) < kMinPoints) continue;
             std::array<Fit, 2> fits;
             for (std::size_t i = 0; i < 2; ++i)
                 fits[i] = fit(sides[i].points, inside, &piece.fit.axes);

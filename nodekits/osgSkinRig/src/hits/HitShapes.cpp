@@ -2,6 +2,7 @@
 #include <osgSkinRig/HitShapes>
 
 #include "hits/FitShapes.h"
+#include "skeleton/BoneCallbacks.h"
 
 #include <osgSkin/Deform>
 #include <osgSkin/DeformableSkin>
@@ -344,16 +345,6 @@ double rayTo(const Shape& shape, const osg::Vec3d& p, const osg::Vec3d& d) {
     return first;
 }
 
-class FindBones : public osg::NodeVisitor {
-public:
-    FindBones() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::MatrixTransform& node) override {
-        if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) bones[bone->getName()] = bone;
-        traverse(node);
-    }
-    std::map<std::string, osgAnimation::Bone*> bones;
-};
-
 osg::ref_ptr<osg::Geometry> linesOf(const Shape& shape) {
     const osg::ref_ptr<osg::Vec3Array> points = new osg::Vec3Array;
     const auto line = [&](const osg::Vec3d& a, const osg::Vec3d& b) {
@@ -516,12 +507,11 @@ osg::ref_ptr<osg::Node> HitShapes::makeLines() {
 
 void HitShapes::findBones(osg::Node& character) {
     if (_character == &character) return;
-    FindBones found;
-    character.accept(found);
+    const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(character);
     _bones.assign(_limbs->size(), {});
     for (std::size_t i = 0; i < _bones.size(); ++i) {
-        const auto bone = found.bones.find((*_limbs)[i].joint);
-        if (bone != found.bones.end()) _bones[i] = bone->second;
+        const auto bone = bones.find((*_limbs)[i].joint);
+        if (bone != bones.end()) _bones[i] = bone->second;
     }
     _character = &character;
 }
