@@ -2,7 +2,7 @@
 # Install rules for `cmake --install` and packages for `cpack -G DEB`, one for each component; debian/
 # makes the same packages.
 #   component    package                 licence  contents
-#   runtime      libosgskin0.4           MIT      libosgSkin, libosgSkinRig, libosgSkinGpu
+#   runtime      libosgskin0.4           MIT      libosgSkin, libosgSkinRig, libosgSkinMotion, libosgSkinGpu
 #   serializers  osgskin-serializers     MIT      .osgt, .osgb, .osgx; with runtime, everything that
 #                                                 a saved character needs
 #   import       libosgskinimport0.4     MIT      libosgSkinImport
@@ -85,11 +85,12 @@ endforeach()
 string(TOLOWER "${osgskin_TBB}" osgskin_tbb) # its pkg-config file
 osgskin_install_kit(osgSkin runtime dev "${PROJECT_DESCRIPTION}" "openscenegraph-osgAnimation"
   openscenegraph-osgUtil ${osgskin_tbb})
-osgskin_install_kit(osgSkinRig runtime dev "Skeletons, motions and retargeting for osgSkin" "osgSkin")
-osgskin_install_kit(osgSkinGpu runtime dev "Deforms on a graphics card for osgSkin" "osgSkinRig" gl)
+osgskin_install_kit(osgSkinRig runtime dev "Skeletons, joint names and retargeting for osgSkin" "osgSkin")
+osgskin_install_kit(osgSkinMotion runtime dev "Clips, walkers, springs and feet for osgSkin" "osgSkinRig")
+osgskin_install_kit(osgSkinGpu runtime dev "Deforms on a graphics card for osgSkin" "osgSkinMotion" gl)
 if(TARGET osgSkinImport)
   osgskin_install_kit(osgSkinImport import dev "Reads meshes, skeletons and motions for osgSkin"
-    "osgSkinRig openscenegraph-osgDB" assimp zlib ${osgskin_draco})
+    "osgSkinMotion openscenegraph-osgDB" assimp zlib ${osgskin_draco})
 endif()
 if(TARGET osgSkinBind)
   osgskin_install_kit(osgSkinBind bind dev "Binds a skin to a skeleton for osgSkin" "osgSkinRig"
@@ -101,7 +102,7 @@ if(TARGET osgSkinCharacter)
 endif()
 if(BUILD_SHARED_LIBS)
   if(TARGET osgdb_serializers_osgskin)
-    install(TARGETS osgdb_serializers_osgskin osgdb_serializers_osgskinrig
+    install(TARGETS osgdb_serializers_osgskin osgdb_serializers_osgskinmotion
       LIBRARY DESTINATION "${osgskin_plugin_dir}" COMPONENT serializers)
   endif()
   if(TARGET osgdb_skin)
@@ -109,10 +110,10 @@ if(BUILD_SHARED_LIBS)
   endif()
 else()
   if(TARGET osgdb_serializers_osgskin)
-    osgskin_install_kit(osgdb_serializers_osgskinrig serializers dev "Reads and writes walkers"
-      "osgSkinRig openscenegraph-osgDB")
+    osgskin_install_kit(osgdb_serializers_osgskinmotion serializers dev "Reads and writes walkers"
+      "osgSkinMotion openscenegraph-osgDB")
     osgskin_install_kit(osgdb_serializers_osgskin serializers dev "Reads and writes saved characters"
-      "osgdb_serializers_osgskinrig")
+      "osgdb_serializers_osgskinmotion")
   endif()
   if(TARGET osgdb_skin)
     osgskin_install_kit(osgdb_skin plugin dev "Lets osgDB read .skin files"

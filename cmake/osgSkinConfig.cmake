@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # find_package(osgSkin COMPONENTS osgSkinCharacter): a target osgSkin::NAME for each component and
-# for the kits that it links. Components are osgSkin, osgSkinRig, osgSkinGpu, osgSkinBind,
-# osgSkinImport and osgSkinCharacter. The runtime (osgSkin, osgSkinRig and osgSkinGpu) is always
+# for the kits that it links. Components are osgSkin, osgSkinRig, osgSkinMotion, osgSkinGpu, osgSkinBind,
+# osgSkinImport and osgSkinCharacter. The runtime (osgSkin, osgSkinRig, osgSkinMotion and osgSkinGpu) is always
 # included. Static kits have their plug-ins as targets, too: osgSkin::osgdb_serializers_osgskin and,
 # with osgSkinCharacter, osgSkin::osgdb_skin (see osgSkin/StaticPlugins).
 include(CMakeFindDependencyMacro)
@@ -11,9 +11,10 @@ include("${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinStatic.cmake" OPTIONAL) # what static kits link
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinRigTargets.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/osgSkinMotionTargets.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/osgSkinGpuTargets.cmake")
 
-set(osgskin_kits osgSkin osgSkinRig osgSkinGpu)
+set(osgskin_kits osgSkin osgSkinRig osgSkinMotion osgSkinGpu)
 foreach(component IN LISTS osgSkin_FIND_COMPONENTS)
   if(component STREQUAL "osgSkinCharacter")
     list(APPEND osgskin_kits osgSkinBind osgSkinImport)
@@ -34,7 +35,7 @@ foreach(kit IN LISTS osgskin_kits)
     endif()
   endif()
 endforeach()
-include("${CMAKE_CURRENT_LIST_DIR}/osgdb_serializers_osgskinrigTargets.cmake" OPTIONAL)
+include("${CMAKE_CURRENT_LIST_DIR}/osgdb_serializers_osgskinmotionTargets.cmake" OPTIONAL)
 include("${CMAKE_CURRENT_LIST_DIR}/osgdb_serializers_osgskinTargets.cmake" OPTIONAL)
 if("osgSkinCharacter" IN_LIST osgskin_kits)
   include("${CMAKE_CURRENT_LIST_DIR}/osgdb_skinTargets.cmake" OPTIONAL)

@@ -5,7 +5,7 @@
 #include "FrameRange.h"
 
 #include <osgSkinCharacter/LoadOptions>
-#include <osgSkinRig/MakeWalker>
+#include <osgSkinMotion/MakeWalker>
 
 #include <cstddef>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "SceneFile.h"
 
 #include <osgSkin/Error>
-#include <osgSkinRig/MakeWalker>
+#include <osgSkinMotion/MakeWalker>
 
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
@@ -37,10 +37,10 @@ void tell(const osgSkin::WalkerReport& report) {
 
 void writeWalker(osgSkin::Character& character, const Arguments& arguments) {
     // OSG leaves out what it has no serializer for, and reports success.
-    for (const char* name : {"osgSkinRig::Walker", "osgSkin::DeformableSkin"})
+    for (const char* name : {"osgSkinMotion::Walker", "osgSkin::DeformableSkin"})
         if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name))
             throw osgSkin::Error(
-                "the serializers of walkers (osgdb_serializers_osgskinrig, "
+                "the serializers of walkers (osgdb_serializers_osgskinmotion, "
                 "osgdb_serializers_osgskin) "
                 "are missing: expected OSG_LIBRARY_PATH to name the folder of osgSkin's plug-ins");
     osgSkin::WalkerReport report;

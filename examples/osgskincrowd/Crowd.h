@@ -3,7 +3,7 @@
 #define OSGSKINCROWD_CROWD_H
 
 #include <osgSkin/DeformPool>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <osg/Group>
 #include <osg/Referenced>

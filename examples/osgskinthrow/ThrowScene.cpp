@@ -7,11 +7,11 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinMotion/MakeAnimation>
+#include <osgSkinMotion/Prop>
 #include <osgSkinRig/Clip>
-#include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/Motion>
-#include <osgSkinRig/Prop>
 #include <osgSkinRig/Retarget>
 
 #include <osg/MatrixTransform>

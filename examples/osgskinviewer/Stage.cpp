@@ -10,7 +10,7 @@
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/SetMorph>
 #include <osgSkinBind/ShowRegions>
-#include <osgSkinRig/HitShapes>
+#include <osgSkinMotion/HitShapes>
 
 #include <osg/Array>
 #include <osg/FrameStamp>

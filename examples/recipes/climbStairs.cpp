@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/GroundFeet>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/GroundFeet>
 
 #include <osg/ShapeDrawable>
 

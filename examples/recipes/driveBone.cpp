@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/RotateBone>
+#include <osgSkinMotion/RotateBone>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 namespace {
 

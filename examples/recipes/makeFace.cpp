@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/FaceControls>
+#include <osgSkinMotion/FaceControls>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>

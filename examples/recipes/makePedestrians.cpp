@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/CharacterGroup>
-#include <osgSkinRig/MakeWalker>
+#include <osgSkinMotion/MakeWalker>
 
 #include <osg/FrameStamp>
 #include <osg/MatrixTransform>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/LivePlayer>
+#include <osgSkinMotion/LivePlayer>
 #include <osgSkinRig/VmcPose>
 
 #include <lo/lo.h>

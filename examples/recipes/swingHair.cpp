@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/GlmOsg>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinMotion/Springs>
 #include <osgSkinRig/ReadSkeleton>
-#include <osgSkinRig/Springs>
 
 #include <osg/ShapeDrawable>
 #include <osgAnimation/StackedMatrixElement>

@@ -5,6 +5,7 @@
 #include "osgSkinCharacterBuild.h"
 #include "osgSkinGpuBuild.h"
 #include "osgSkinImportBuild.h"
+#include "osgSkinMotionBuild.h"
 #include "osgSkinRigBuild.h"
 
 #include <osg/Notify>
@@ -79,9 +80,9 @@ public:
 // Like REGISTER_OSGPLUGIN, but only with the libraries that the plug-in was built with.
 extern "C" void osgdb_skin(void) {}
 static const auto g_proxy =
-    plugin::mayUse("osgdb_skin",
-                   {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig),
-                    OSGSKIN_KIT_BUILD(osgSkinGpu), OSGSKIN_KIT_BUILD(osgSkinBind),
-                    OSGSKIN_KIT_BUILD(osgSkinImport), OSGSKIN_KIT_BUILD(osgSkinCharacter)})
+    plugin::mayUse("osgdb_skin", {OSGSKIN_KIT_BUILD(osgSkin), OSGSKIN_KIT_BUILD(osgSkinRig),
+                                  OSGSKIN_KIT_BUILD(osgSkinMotion), OSGSKIN_KIT_BUILD(osgSkinGpu),
+                                  OSGSKIN_KIT_BUILD(osgSkinBind), OSGSKIN_KIT_BUILD(osgSkinImport),
+                                  OSGSKIN_KIT_BUILD(osgSkinCharacter)})
         ? std::make_unique<osgDB::RegisterReaderWriterProxy<ReaderWriterSkin>>()
         : nullptr;

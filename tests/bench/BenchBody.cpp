@@ -10,7 +10,7 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
-#include <osgSkinRig/ApplyFrame>
+#include <osgSkinMotion/ApplyFrame>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/Motion>
 #include <osgSkinRig/Retarget>

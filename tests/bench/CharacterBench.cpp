@@ -10,8 +10,8 @@
 #include <osgSkin/DeformPool>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
 #include <osg/ref_ptr>

@@ -4,7 +4,7 @@
 #include "CharacterBench.h"
 
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/HitShapes>
+#include <osgSkinMotion/HitShapes>
 
 #include <cmath>
 #include <string>

@@ -4,7 +4,7 @@
 #include "BenchBody.h"
 #include "CharacterBench.h"
 
-#include <osgSkinRig/ClipPlayer>
+#include <osgSkinMotion/ClipPlayer>
 
 #include <string>
 #include <vector>

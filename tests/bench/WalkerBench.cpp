@@ -5,7 +5,7 @@
 
 #include <osgSkin/CharacterGroup>
 #include <osgSkin/DeformPool>
-#include <osgSkinRig/MakeWalker>
+#include <osgSkinMotion/MakeWalker>
 
 #include <benchmark/benchmark.h>
 #include <osg/Geode>

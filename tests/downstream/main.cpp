@@ -9,7 +9,7 @@
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/Retarget>
 

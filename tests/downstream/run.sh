@@ -61,7 +61,7 @@ cat >"$folder/runtime.cpp" <<'CODE'
 int main() { return osg::ref_ptr<osgSkin::DeformableSkin>(new osgSkin::DeformableSkin)->getEager(); }
 CODE
 export PKG_CONFIG_PATH="$lib/pkgconfig"
-for kit in osgSkin osgSkinRig osgSkinGpu osgSkinBind osgSkinImport osgSkinCharacter; do pkg-config --print-errors --exists "$kit"; done
+for kit in osgSkin osgSkinRig osgSkinMotion osgSkinGpu osgSkinBind osgSkinImport osgSkinCharacter; do pkg-config --print-errors --exists "$kit"; done
 # shellcheck disable=SC2046 # options, one per word
 c++ -std=c++17 "$folder/runtime.cpp" -o "$folder/runtime" \
   $(pkg-config --cflags --libs osgSkin openscenegraph) -Wl,-rpath,"$lib"

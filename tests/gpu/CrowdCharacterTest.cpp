@@ -8,7 +8,7 @@
 
 #include <osgSkin/Error>
 #include <osgSkin/RigidPart>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <gtest/gtest.h>
 #include <osg/GLExtensions>

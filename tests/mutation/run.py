@@ -33,6 +33,7 @@ EXPLAINED = Path(__file__).with_name("explained.txt")
 KITS = {
     "osgSkin": ["runtime_test", "serializers_test", "scene_test", "allocation_test", "bindTests"],
     "osgSkinRig": ["runtime_test", "importTests", "bindTests", "system_test"],
+    "osgSkinMotion": ["runtime_test", "walk_test", "springs_test", "constraints_test", "live_test"],
     "osgSkinGpu": ["gpu_test --gtest_filter=-OldDriver.*"],
     "osgSkinImport": ["importTests", "system_test"],
     "osgSkinBind": ["bindTests", "system_test"],

@@ -9,7 +9,7 @@
 
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportRig>
-#include <osgSkinRig/SampledClip>
+#include <osgSkinMotion/SampledClip>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

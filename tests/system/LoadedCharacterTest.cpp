@@ -5,7 +5,7 @@
 #include "DrawnSkin.h"
 
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <gtest/gtest.h>
 #include <osg/TriangleIndexFunctor>

@@ -14,7 +14,7 @@
 
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportMesh>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <gtest/gtest.h>
 #include <osg/ComputeBoundsVisitor>

@@ -8,7 +8,7 @@
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/Walker>
+#include <osgSkinMotion/Walker>
 
 #include <assimp/Exporter.hpp>
 #include <assimp/scene.h>

@@ -26,7 +26,7 @@ expect() {
   dpkg-deb -f "$deb" Depends >"$folder/$package.depends"
   echo "$package needs $(cat "$folder/$package.depends")"
 }
-expect libosgskin0.4 libosgSkin.so.0.4 libosgSkinRig.so.0.4 libosgSkinGpu.so.0.4
+expect libosgskin0.4 libosgSkin.so.0.4 libosgSkinRig.so.0.4 libosgSkinMotion.so.0.4 libosgSkinGpu.so.0.4
 expect osgskin-serializers osgdb_serializers_osgskin.so
 expect libosgskinimport0.4 libosgSkinImport.so.0.4
 expect libosgskin-dev include/osgSkin/DeformableSkin include/osgSkinImport/ImportMesh osgSkinConfig.cmake \

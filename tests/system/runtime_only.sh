@@ -24,7 +24,7 @@ runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
 rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)
 gpu=$(find "$folder/installed" -name 'libosgSkinGpu.so.*' -type f)
 serializers=$(find "$folder/installed" -name osgdb_serializers_osgskin.so)
-walkers=$(find "$folder/installed" -name osgdb_serializers_osgskinrig.so)
+walkers=$(find "$folder/installed" -name osgdb_serializers_osgskinmotion.so)
 [ "$(find "$folder/installed" -type f | wc -l)" -eq 5 ] || fail "more than the five libraries is installed"
 for file in "$runtime" "$rig" "$gpu" "$serializers" "$walkers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
   "$build"/lib/osgPlugins-*/osgdb_serializers_osgskin.so; do

@@ -3,8 +3,8 @@
 // CMU's joint names lifts an arm while it walks ahead, and a robot of half the size, whose names
 // only the game knows, does the same.
 #include <osgSkin/Error>
-#include <osgSkinRig/ApplyFrame>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/ApplyFrame>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/Retarget>
 

@@ -6,10 +6,10 @@
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/Constraints>
-#include <osgSkinRig/SampledClip>
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/Constraints>
+#include <osgSkinMotion/SampledClip>
+#include <osgSkinMotion/Springs>
 
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>

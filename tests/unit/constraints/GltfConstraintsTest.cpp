@@ -6,9 +6,9 @@
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinImport/ImportConstraints>
 #include <osgSkinImport/ImportSkeleton>
-#include <osgSkinRig/Constraints>
+#include <osgSkinMotion/Constraints>
+#include <osgSkinMotion/RotateBone>
 #include <osgSkinRig/MakeSkeleton>
-#include <osgSkinRig/RotateBone>
 
 #include <gtest/gtest.h>
 

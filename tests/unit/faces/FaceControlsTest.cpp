@@ -2,7 +2,7 @@
 #include "TubeSkin.h"
 
 #include <osgSkin/SetMorph>
-#include <osgSkinRig/FaceControls>
+#include <osgSkinMotion/FaceControls>
 
 #include <gtest/gtest.h>
 

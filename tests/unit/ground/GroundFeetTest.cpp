@@ -5,8 +5,8 @@
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/GroundFeet>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/GroundFeet>
 
 #include <gtest/gtest.h>
 

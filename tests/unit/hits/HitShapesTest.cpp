@@ -8,7 +8,7 @@
 #include <osgSkin/RigidPart>
 #include <osgSkin/SkinHit>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/HitShapes>
+#include <osgSkinMotion/HitShapes>
 
 #include <gtest/gtest.h>
 

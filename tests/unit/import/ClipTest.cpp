@@ -6,9 +6,9 @@
 #include "UpdateAt.h"
 
 #include <osgSkin/GlmOsg>
-#include <osgSkinRig/ApplyFrame>
+#include <osgSkinMotion/ApplyFrame>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/Clip>
-#include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
 #include <glm/gtc/quaternion.hpp>

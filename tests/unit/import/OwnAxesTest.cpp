@@ -9,9 +9,9 @@
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/BoneReader>
 #include <osgSkin/GlmOsg>
-#include <osgSkinRig/ApplyFrame>
+#include <osgSkinMotion/ApplyFrame>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/Clip>
-#include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/ReadSkeleton>
 

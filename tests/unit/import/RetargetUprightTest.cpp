@@ -6,8 +6,8 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinMotion/Prop>
 #include <osgSkinRig/JointRoles>
-#include <osgSkinRig/Prop>
 #include <osgSkinRig/Retarget>
 
 #include <algorithm>

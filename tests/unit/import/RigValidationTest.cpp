@@ -3,12 +3,12 @@
 #include "ExpectError.h"
 #include "Figure.h"
 
-#include <osgSkinRig/ClipPlayer>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/ClipPlayer>
+#include <osgSkinMotion/MakeAnimation>
+#include <osgSkinMotion/Prop>
+#include <osgSkinMotion/SampledClip>
 #include <osgSkinRig/Motion>
-#include <osgSkinRig/Prop>
 #include <osgSkinRig/Retarget>
-#include <osgSkinRig/SampledClip>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>

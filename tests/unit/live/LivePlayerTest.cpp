@@ -5,7 +5,7 @@
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/LivePlayer>
+#include <osgSkinMotion/LivePlayer>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>

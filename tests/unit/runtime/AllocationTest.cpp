@@ -4,7 +4,7 @@
 #include <osgSkin/DeformPool>
 #include <osgSkin/PoseBounds>
 #include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinRig/ClipPlayer>
+#include <osgSkinMotion/ClipPlayer>
 
 #include "Tube.h"
 #include "Turns.h"

@@ -5,7 +5,7 @@
 #include "PlayedFigure.h"
 #include "TubeSkin.h"
 
-#include <osgSkinRig/SampledClip>
+#include <osgSkinMotion/SampledClip>
 
 #include <utility>
 

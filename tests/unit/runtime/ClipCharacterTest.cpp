@@ -6,7 +6,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/MorphTargets>
 #include <osgSkin/UpdateMorphs>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <gtest/gtest.h>
 #include <osg/Geometry>

@@ -2,7 +2,7 @@
 // Events of clips that a player reaches.
 #include "BentClip.h"
 
-#include <osgSkinRig/ClipPlayer>
+#include <osgSkinMotion/ClipPlayer>
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include "BentClip.h"
 #include "UpdateAt.h"
 
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/ClipPlayer>
-#include <osgSkinRig/RotateBone>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/ClipPlayer>
+#include <osgSkinMotion/RotateBone>
 
 #include <gtest/gtest.h>
 

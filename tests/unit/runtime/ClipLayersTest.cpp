@@ -3,7 +3,7 @@
 #include "PlayedFigure.h"
 
 #include <osgSkin/Error>
-#include <osgSkinRig/ClipPlayer>
+#include <osgSkinMotion/ClipPlayer>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "Notices.h"
 #include "UpdateAt.h"
 
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/ClipPlayer>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/ClipPlayer>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>

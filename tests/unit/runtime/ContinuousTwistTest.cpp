@@ -6,7 +6,7 @@
 #include "UpdateAt.h"
 
 #include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <gtest/gtest.h>
 #include <osg/Group>

@@ -9,8 +9,8 @@
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/RigidPart>
 #include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinRig/ClipPlayer>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/ClipPlayer>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
 #include <osg/Geometry>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkinRig/RotateBone>
+#include <osgSkinMotion/RotateBone>
 
 #include <gtest/gtest.h>
 

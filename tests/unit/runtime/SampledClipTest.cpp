@@ -3,8 +3,8 @@
 #include "Turns.h"
 
 #include <osgSkin/Error>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/MakeSkeleton>
 
 #include <glm/geometric.hpp>

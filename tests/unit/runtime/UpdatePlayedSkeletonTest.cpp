@@ -6,7 +6,7 @@
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/UpdatePlayedSkeleton>
-#include <osgSkinRig/ApplyFrame>
+#include <osgSkinMotion/ApplyFrame>
 
 #include <gtest/gtest.h>
 #include <osg/Geode>

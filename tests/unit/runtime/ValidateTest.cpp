@@ -3,7 +3,7 @@
 #include "Tube.h"
 
 #include <osgSkin/Error>
-#include <osgSkinRig/Prop>
+#include <osgSkinMotion/Prop>
 #include <osgSkinRig/RestSkeleton>
 #include <osgSkinRig/Retarget>
 #include <osgSkinRig/SkinMesh>

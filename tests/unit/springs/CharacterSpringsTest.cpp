@@ -7,8 +7,8 @@
 #include <osgSkin/Error>
 #include <osgSkinCharacter/CharacterOption>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinRig/ClipCharacter>
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/Springs>
 
 #include <gtest/gtest.h>
 

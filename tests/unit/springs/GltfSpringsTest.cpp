@@ -6,7 +6,7 @@
 #include <osgSkin/BoneReader>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSprings>
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/Springs>
 
 #include <gtest/gtest.h>
 

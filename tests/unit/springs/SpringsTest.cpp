@@ -2,9 +2,9 @@
 #include "FindNodes.h"
 #include "UpdateAt.h"
 
+#include <osgSkinMotion/RotateBone>
+#include <osgSkinMotion/Springs>
 #include <osgSkinRig/MakeSkeleton>
-#include <osgSkinRig/RotateBone>
-#include <osgSkinRig/Springs>
 
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>

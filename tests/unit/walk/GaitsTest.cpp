@@ -2,7 +2,7 @@
 #include "WalkingFigure.h"
 
 #include <osgSkin/Error>
-#include <osgSkinRig/Gaits>
+#include <osgSkinMotion/Gaits>
 
 #include <gtest/gtest.h>
 

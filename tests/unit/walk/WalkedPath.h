@@ -6,7 +6,7 @@
 #include "WalkingFigure.h"
 
 #include <osgSkin/DeformableSkin>
-#include <osgSkinRig/Walker>
+#include <osgSkinMotion/Walker>
 
 #include <osg/FrameStamp>
 #include <osg/MatrixTransform>

@@ -6,9 +6,9 @@
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/SkinModel>
 #include <osgSkin/UpdateDeformableSkin>
-#include <osgSkinRig/MakeAnimation>
+#include <osgSkinMotion/MakeAnimation>
+#include <osgSkinMotion/MakeWalker>
 #include <osgSkinRig/MakeSkeleton>
-#include <osgSkinRig/MakeWalker>
 #include <osgSkinRig/RestSkeleton>
 
 #include <osg/Geometry>

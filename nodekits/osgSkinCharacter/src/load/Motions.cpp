@@ -4,8 +4,8 @@
 
 #include <osgSkinBind/RigidJoints>
 #include <osgSkinImport/ImportMotion>
+#include <osgSkinMotion/MakeAnimation>
 #include <osgSkinRig/JointRoles>
-#include <osgSkinRig/MakeAnimation>
 #include <osgSkinRig/Retarget>
 
 #include <osg/Quat>

@@ -6,8 +6,8 @@
 #include <osgSkinBind/FitSkeleton>
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
+#include <osgSkinMotion/SpringSettings>
 #include <osgSkinRig/Retarget>
-#include <osgSkinRig/SpringSettings>
 
 #include <cstddef>
 #include <map>

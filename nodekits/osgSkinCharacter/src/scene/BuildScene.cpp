@@ -18,16 +18,16 @@
 #include <osgSkinCharacter/CharacterMotion>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ImportMotion>
+#include <osgSkinMotion/Constraints>
+#include <osgSkinMotion/Prop>
+#include <osgSkinMotion/Springs>
 #include <osgSkinRig/BodyDirections>
 #include <osgSkinRig/Clip>
-#include <osgSkinRig/Constraints>
 #include <osgSkinRig/ForwardKinematics>
 #include <osgSkinRig/MakeSkeleton>
 #include <osgSkinRig/Motion>
-#include <osgSkinRig/Prop>
 #include <osgSkinRig/RestSkeleton>
 #include <osgSkinRig/SkinMesh>
-#include <osgSkinRig/Springs>
 
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>

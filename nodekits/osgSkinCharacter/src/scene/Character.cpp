@@ -8,10 +8,10 @@
 #include <osgSkin/SetMorph>
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkin/UpdatePlayedSkeleton>
-#include <osgSkinRig/ApplyFrame>
-#include <osgSkinRig/Constraints>
-#include <osgSkinRig/MakeAnimation>
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/ApplyFrame>
+#include <osgSkinMotion/Constraints>
+#include <osgSkinMotion/MakeAnimation>
+#include <osgSkinMotion/Springs>
 
 #include <osg/FrameStamp>
 #include <osgAnimation/Channel>

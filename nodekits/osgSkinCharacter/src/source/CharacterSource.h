@@ -15,9 +15,9 @@
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ImportMesh>
 #include <osgSkinImport/ReadLimits>
-#include <osgSkinRig/Constraint>
+#include <osgSkinMotion/Constraint>
+#include <osgSkinMotion/SpringSettings>
 #include <osgSkinRig/RestSkeleton>
-#include <osgSkinRig/SpringSettings>
 
 #include <cstddef>
 #include <set>

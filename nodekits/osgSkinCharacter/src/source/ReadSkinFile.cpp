@@ -11,7 +11,7 @@
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinImport/ImportSprings>
 #include <osgSkinImport/ShareImages>
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/Springs>
 
 #include <glm/gtc/quaternion.hpp>
 #include <osg/BoundingBox>

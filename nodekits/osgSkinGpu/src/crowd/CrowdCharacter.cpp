@@ -11,7 +11,7 @@
 #include <osgSkin/PoseBounds>
 #include <osgSkinGpu/GpuCrowd>
 #include <osgSkinGpu/GpuPalette>
-#include <osgSkinRig/ClipCharacter>
+#include <osgSkinMotion/ClipCharacter>
 
 #include <osg/Array>
 #include <osg/BufferObject>

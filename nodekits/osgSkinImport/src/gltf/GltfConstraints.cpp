@@ -5,7 +5,7 @@
 #include "files/FileText.h"
 #include "gltf/GltfMembers.h"
 
-#include <osgSkinRig/Constraints>
+#include <osgSkinMotion/Constraints>
 
 #include <algorithm>
 #include <utility>

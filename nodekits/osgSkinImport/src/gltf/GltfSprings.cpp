@@ -5,7 +5,7 @@
 #include "files/FileText.h"
 #include "gltf/GltfMembers.h"
 
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/Springs>
 
 #include <utility>
 

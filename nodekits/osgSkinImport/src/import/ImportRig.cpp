@@ -13,7 +13,7 @@
 #include <osgSkin/GlmTypes>
 #include <osgSkin/UpdateMorphs>
 #include <osgSkin/UpdatePlayedSkeleton>
-#include <osgSkinRig/Constraint>
+#include <osgSkinMotion/Constraint>
 
 #include <glm/geometric.hpp>
 #include <osgAnimation/Animation>

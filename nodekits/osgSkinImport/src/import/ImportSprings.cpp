@@ -6,7 +6,7 @@
 #include "scene/SceneBind.h"
 #include "scene/SceneSkeleton.h"
 
-#include <osgSkinRig/Springs>
+#include <osgSkinMotion/Springs>
 
 #include <map>
 #include <utility>

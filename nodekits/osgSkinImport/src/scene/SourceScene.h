@@ -10,8 +10,8 @@
 #include "mesh/Material.h"
 
 #include <osgSkin/MorphTargets>
-#include <osgSkinRig/Constraint>
-#include <osgSkinRig/SpringSettings>
+#include <osgSkinMotion/Constraint>
+#include <osgSkinMotion/SpringSettings>
 
 #include <osg/Image>
 #include <osg/Matrixd>

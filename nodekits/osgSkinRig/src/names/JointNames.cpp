@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinRig/JointNames>
 
+#include "names/NameWords.h"
+
 #include <utility>
 
 namespace osgSkin {
@@ -233,16 +235,6 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
     for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
         text.replace(at, mark.size(), by);
     return text;
-}
-
-std::vector<std::string> split(const std::string& names) {
-    std::vector<std::string> result(1);
-    for (const char c : names)
-        if (c == ' ')
-            result.emplace_back();
-        else
-            result.back() += c;
-    return result;
 }
 
 void addRow(const std::string& role, const std::string& names, JointNames& result) {

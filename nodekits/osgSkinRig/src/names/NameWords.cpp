@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <sstream>
 #include <unordered_map>
 #include <utility>
 
@@ -227,6 +228,13 @@ bool isPositional(const std::string& before, BodyWord word) {
     const bool ofTrunk = word <= BodyWord::Spine;
     return ((before == "arm" || before == "shoulder") && ofArm) || (before == "leg" && ofLeg) ||
            (before == "spine" && ofTrunk) || (before == "neck" && word == BodyWord::Head);
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> result;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);) result.push_back(part);
+    return result;
 }
 
 bool isAccessory(const std::string& word) {

@@ -29,6 +29,9 @@ std::string bareName(const std::string& name);
 /// which its exporters turn into joints. It is no part of the body and has no nameWords().
 bool isPivot(const std::string& name);
 
+/// The parts of a text between separators.
+std::vector<std::string> split(const std::string& text, char separator = ' ');
+
 /// Whether a word is a number.
 bool isNumber(const std::string& word);
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// For callbacks that act on bones after others have moved them.
+#ifndef OSGSKINMOTION_BONES_BONECALLBACKS_H
+#define OSGSKINMOTION_BONES_BONECALLBACKS_H
+
+#include <osgSkin/BoneReader>
+#include <osgSkin/GlmOsg>
+
+#include <osg/MatrixTransform>
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+#include <osg/ref_ptr>
+#include <osgAnimation/Bone>
+#include <osgAnimation/Skeleton>
+
+#include <glm/geometric.hpp>
+
+#include <map>
+#include <string>
+
+namespace osgSkin {
+
+/// The rotation of a matrix that is not singular.
+inline glm::dquat axesOf(const osg::Matrixd& matrix) {
+    glm::dmat3 m(toGlm(matrix));
+    for (int i = 0; i < 3; ++i) m[i] = glm::normalize(m[i]);
+    if (glm::determinant(m) < 0.0) m = -m;
+    return glm::normalize(glm::quat_cast(m));
+}
+
+/// The bones at and below a node by name, hidden ones, too; of several with one name, as those of a
+/// rider, the topmost.
+inline std::map<std::string, osgAnimation::Bone*> bonesBelow(osg::Node& node) {
+    struct Find : osg::NodeVisitor {
+        Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+        void apply(osg::MatrixTransform& transform) override {
+            if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&transform))
+                bones.emplace(bone->getName(), bone);
+            traverse(transform);
+        }
+        std::map<std::string, osgAnimation::Bone*> bones;
+    } find;
+    node.accept(find);
+    return find.bones;
+}
+
+/// The callback of a class that some bone has; null where none has.
+template <typename Callback>
+Callback* callbackOf(osgAnimation::Skeleton& skeleton) {
+    for (const auto& [name, bone] : bonesOf(skeleton))
+        for (osg::Callback* c = bone->getUpdateCallback(); c; c = c->getNestedCallback())
+            if (auto* found = dynamic_cast<Callback*>(c)) return found;
+    return nullptr;
+}
+
+/// Adds a callback that acts after all others of the bones, in place of one of its class.
+/// \return false where the skeleton has no bone
+template <typename Callback>
+bool addLast(Callback& callback, osgAnimation::Skeleton& skeleton) {
+    const osg::ref_ptr<Callback> other = callbackOf<Callback>(skeleton);
+    osgAnimation::Bone* last = nullptr; // of the topmost bones: all others are posed before it
+    for (const auto& [name, bone] : bonesOf(skeleton)) {
+        if (other) bone->removeUpdateCallback(other);
+        if (bone->getBoneParent()) continue;
+        if (!last || skeleton.getChildIndex(bone) > skeleton.getChildIndex(last)) last = bone;
+    }
+    if (!last) return false;
+    // The first callback is the last to act, because each calls the next one before.
+    callback.setNestedCallback(last->getUpdateCallback());
+    last->setUpdateCallback(&callback);
+    return true;
+}
+
+/// The skeleton at or above a traversed node; null where there is none.
+/// \param[out] path to the skeleton
+inline osgAnimation::Skeleton* skeletonAbove(const osg::NodeVisitor& nv, osg::NodePath& path) {
+    path = nv.getNodePath();
+    while (!path.empty() && !dynamic_cast<osgAnimation::Skeleton*>(path.back())) path.pop_back();
+    return path.empty() ? nullptr : static_cast<osgAnimation::Skeleton*>(path.back());
+}
+
+} // namespace osgSkin
+
+#endif

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+#include <osgSkinMotion/ClipPlayer>
+
+#include "clips/BakedClip.h"
+#include "clips/ClipBones.h"
+#include "clips/JointMaps.h"
+#include "players/ClipLayers.h"
+
+#include <osgSkin/GlmOsg>
+#include <osgSkin/PoseBounds>
+
+#include <osg/FrameStamp>
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace osgSkin {
+namespace {
+
+osg::Matrixd toMatrix(const JointMap& map) {
+    osg::Matrixd result = osg::Matrixd::rotate(toOsg(map.rotation));
+    if (map.scale != 1.0) result = osg::Matrixd::scale(map.scale, map.scale, map.scale) * result;
+    result.setTrans(toOsg(map.offset));
+    return result;
+}
+
+/// Baked bounds do not include activations.
+bool isActivated(const DeformableSkin& skin) {
+    const std::size_t inputs = skin.getModel() ? skin.getModel()->inputs().size() : 0;
+    for (std::size_t i = 0; i < inputs; ++i)
+        if (skin.getPose().input(i) != 0.0f) return true;
+    return false;
+}
+
+int parentJoint(const SampledClip& clip, int joint) {
+    return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
+}
+
+} // namespace
+
+/// Sets a bone's matrices, after the bone's own callback and before those that were added to it.
+class ClipPlayer::PlacedBone : public osg::NodeCallback {
+public:
+    osg::Matrixd inParent, inSkeleton;
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        auto& bone = static_cast<osgAnimation::Bone&>(*node);
+        bone.setMatrix(inParent);
+        bone.setMatrixInSkeletonSpace(inSkeleton);
+        traverse(node, nv);
+    }
+};
+
+ClipPlayer::ClipPlayer() : _layers(new ClipLayers) {}
+ClipPlayer::~ClipPlayer() = default;
+
+ClipPlayer::ClipPlayer(const ClipPlayer& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+      _layers(new ClipLayers) {
+    for (std::size_t i = 0; i < kMaxLayers; ++i)
+        if (other.getLayer(i).clip) setLayer(i, other.getLayer(i));
+    setInterpolated(other.getInterpolated());
+    setRoot(other.getRoot(), other._layers->up());
+    OSG_WARN << "osgSkin: a copy of a ClipPlayer poses nothing, expected ClipCharacter to make one"
+             << std::endl;
+}
+
+void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
+    _layers->set(index, layer);
+}
+
+const ClipPlayer::Layer& ClipPlayer::getLayer(std::size_t index) const {
+    return _layers->get(index);
+}
+
+void ClipPlayer::seek(std::size_t index, double time) {
+    _layers->seek(index, time);
+}
+
+void ClipPlayer::setSpeed(std::size_t index, double speed) {
+    _layers->setSpeed(index, speed);
+}
+
+void ClipPlayer::fade(std::size_t index, double weight, double seconds, Easing easing) {
+    _layers->fade(index, weight, seconds, easing);
+}
+
+void ClipPlayer::play(const Layer& layer, double fade, Easing easing) {
+    if (layer.clip) _layers->play(layer, fade, easing, posedJoints());
+}
+
+bool ClipPlayer::playOn(const std::string& joint, const Layer& layer, double fade, Easing easing) {
+    if (!layer.clip || layer.clip->find(joint) < 0) return false;
+    Layer part = layer;
+    part.joints = jointsBelow(*layer.clip, joint);
+    _layers->playOn(part, fade, easing);
+    return true;
+}
+
+void ClipPlayer::stopOn(double fade, Easing easing) {
+    _layers->stopOn(fade, easing);
+}
+
+void ClipPlayer::addEvent(const SampledClip* clip, double time, const Event& event) {
+    _layers->addEvent(clip, time, event);
+}
+
+void ClipPlayer::removeEvents(const SampledClip* clip) {
+    _layers->removeEvents(clip);
+}
+
+void ClipPlayer::setInterpolated(bool interpolated) {
+    _layers->setInterpolated(interpolated);
+}
+
+bool ClipPlayer::getInterpolated() const {
+    return _layers->isInterpolated();
+}
+
+void ClipPlayer::setRoot(Root root) {
+    setRoot(root, _layers->up());
+}
+
+void ClipPlayer::setRoot(Root root, const osg::Vec3d& up) {
+    _layers->setRoot(root, up);
+}
+
+ClipPlayer::Root ClipPlayer::getRoot() const {
+    return _layers->root();
+}
+
+osg::Vec3d ClipPlayer::takeRootMotion() {
+    const osg::Vec3d shift = _layers->takeMotion().shift;
+    return getRoot() == Root::Extracted ? shift : osg::Vec3d();
+}
+
+osg::Matrixd ClipPlayer::takeRootMatrix(const osg::Matrixd& toWorld) {
+    const ClipLayers::GroundMove move = _layers->takeMotion();
+    osg::Matrixd result = osg::Matrixd::rotate(osg::Quat(move.angle, _layers->up()));
+    result.setTrans(move.shift);
+    return osg::Matrixd::inverse(toWorld) * result * toWorld;
+}
+
+void ClipPlayer::addSkin(DeformableSkin* skin) {
+    if (!skin) return;
+    _skins.push_back({skin, nullptr, {}, {}, false});
+    _found = nullptr;
+}
+
+void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& joint,
+                          const osg::Matrixd& toParent) {
+    if (!transform) return;
+    _rigids.push_back({transform, joint, toParent, -1});
+    _found = nullptr;
+}
+
+void ClipPlayer::addBones(osgAnimation::Skeleton* skeleton) {
+    if (!skeleton) return;
+    std::map<const osgAnimation::Bone*, int> indices;
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : bonesInOrder(*skeleton)) {
+        const osg::ref_ptr<PlacedBone> placed = new PlacedBone;
+        placed->inParent = bone->getMatrix();
+        placed->inSkeleton = bone->getMatrixInSkeletonSpace();
+        if (osg::Callback* own = updateOf(*bone)) {
+            placed->setNestedCallback(own->getNestedCallback());
+            own->setNestedCallback(placed);
+        } else {
+            placed->setNestedCallback(bone->getUpdateCallback());
+            bone->setUpdateCallback(placed);
+        }
+        const auto parent = indices.find(bone->getBoneParent());
+        indices[bone] = static_cast<int>(_bones.size());
+        _bones.push_back({placed, bone->getName(), parent == indices.end() ? -1 : parent->second,
+                          -1, osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace())});
+    }
+    _found = nullptr;
+}
+
+void ClipPlayer::advance(double seconds) {
+    if (!std::isfinite(seconds)) return;
+    _layers->advance(seconds);
+    _layers->callEvents(*this);
+}
+
+bool ClipPlayer::knowsJoints(const SampledClip& clip) const {
+    return _found.get() == &clip && std::all_of(_skins.begin(), _skins.end(), [](const Skin& skin) {
+               return skin.model.get() == skin.skin->getModel();
+           });
+}
+
+void ClipPlayer::findJoints(const SampledClip& clip) {
+    _found = &clip;
+    _needsWhole = !_rigids.empty() || !_bones.empty();
+    for (Skin& skin : _skins) {
+        skin.model = skin.skin->getModel();
+        skin.joints.clear();
+        skin.direct = skin.same = true;
+        if (!skin.skin->getModel()) continue;
+        skin.pose = Pose(skin.model->joints(), skin.model->inputs().size());
+        for (const BoundJoint& joint : skin.skin->getModel()->joints()) {
+            const int found = clip.find(joint.name);
+            const int above =
+                joint.parent < 0 ? -1 : skin.joints[static_cast<std::size_t>(joint.parent)];
+            if (found >= 0 && parentJoint(clip, found) != above) skin.direct = false;
+            // A joint that the clip lacks moves with its parent, and its descendants with that.
+            if (found < 0 && above >= 0) skin.direct = false;
+            if (found != static_cast<int>(skin.joints.size())) skin.same = false;
+            skin.joints.push_back(found >= 0 ? found : above);
+        }
+        _needsWhole = _needsWhole || !skin.direct;
+    }
+    for (Rigid& rigid : _rigids) rigid.joint = clip.find(rigid.name);
+    for (Bone& bone : _bones) bone.joint = clip.find(bone.name);
+}
+
+void ClipPlayer::poseBones(const std::vector<JointMap>& whole) const {
+    for (const Bone& bone : _bones) {
+        const Bone* parent =
+            bone.parent < 0 ? nullptr : &_bones[static_cast<std::size_t>(bone.parent)];
+        PlacedBone& placed = *bone.placed;
+        if (bone.joint >= 0) {
+            placed.inSkeleton = bone.bind * toMatrix(whole[static_cast<std::size_t>(bone.joint)]);
+            placed.inParent = placed.inSkeleton;
+            if (parent) placed.inParent.postMult(osg::Matrixd::inverse(parent->placed->inSkeleton));
+        } else {
+            placed.inSkeleton = placed.inParent;
+            if (parent) placed.inSkeleton.postMult(parent->placed->inSkeleton);
+        }
+    }
+}
+
+bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
+                          const std::vector<JointMap>& whole, Pose::Twist twist, const Pose* baked,
+                          const osg::BoundingBox* bounds) const {
+    static thread_local std::vector<JointMap> maps;
+    if (!skin.skin->getModel()) return false;
+    const std::vector<BoundJoint>& joints = skin.skin->getModel()->joints();
+    if (joints.size() != skin.joints.size()) return false;
+    const auto set = [&](const std::vector<JointMap>& of) {
+        if (!baked) return skin.skin->setPose(of.data(), joints.size(), twist);
+        // Twists continue those of the sample, whatever was shown before.
+        if (!skin.pose.setJoints(*baked) ||
+            !skin.pose.set(of.data(), joints.size(), Pose::Twist::Continued))
+            return false;
+        if (bounds->valid()) return skin.skin->setPose(skin.pose, *bounds);
+        return skin.skin->setPose(skin.pose,
+                                  toOsg(computePoseBounds(*skin.skin->getModel(), skin.pose)));
+    };
+    if (skin.direct && skin.same) return set(own);
+    maps.assign(joints.size(), JointMap());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const int found = skin.joints[j];
+        if (found < 0) continue;
+        const auto at = static_cast<std::size_t>(found);
+        if (skin.direct) {
+            maps[j] = own[at];
+            continue;
+        }
+        const int above =
+            joints[j].parent < 0 ? -1 : skin.joints[static_cast<std::size_t>(joints[j].parent)];
+        if (above == found) continue;
+        maps[j] =
+            above < 0 ? whole[at] : inverse(whole[static_cast<std::size_t>(above)]) * whole[at];
+    }
+    return set(maps);
+}
+
+const BakedClip* ClipPlayer::findBaked(const Layer* layer) const {
+    if (_baked.empty() || !layer || getRoot() != Root::Moving || posedJoints()) return nullptr;
+    const auto baked = std::find_if(_baked.begin(), _baked.end(),
+                                    [&](const auto& b) { return b->clip == layer->clip; });
+    if (baked == _baked.end() || (*baked)->skins.size() != _skins.size() ||
+        (*baked)->rigids.size() != _rigids.size())
+        return nullptr;
+    for (std::size_t i = 0; i < _skins.size(); ++i) {
+        const DeformableSkin& skin = *_skins[i].skin;
+        if (skin.getModel() != (*baked)->skins[i].model || isActivated(skin)) return nullptr;
+    }
+    return baked->get();
+}
+
+bool ClipPlayer::poseBaked(const BakedClip& baked, std::size_t sample) const {
+    bool good = true;
+    for (std::size_t i = 0; i < _skins.size(); ++i) {
+        const BakedClip::Skin& skin = baked.skins[i];
+        good = _skins[i].skin->setPose(skin.poses[sample], skin.bounds[sample]) && good;
+    }
+    for (std::size_t i = 0; i < _rigids.size(); ++i)
+        _rigids[i].transform->setMatrix(baked.rigids[i][sample]);
+    return good;
+}
+
+bool ClipPlayer::pose() {
+    const bool isContinued = _posed && _layers->isContinued();
+    _posed = poseAs(isContinued ? Pose::Twist::Continued : Pose::Twist::Shortest);
+    _layers->markPosed();
+    return _posed;
+}
+
+bool ClipPlayer::poseAs(Pose::Twist twist) {
+    const SampledClip* clip = _layers->prepare();
+    if (!clip) return false;
+    const Layer* alone = _layers->alone();
+    const BakedClip* baked = findBaked(alone);
+    SampledClip::Place at;
+    if (baked) {
+        at = alone->clip->place(alone->time, alone->loop);
+        if ((!getInterpolated() || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
+    }
+    if (!knowsJoints(*clip)) findJoints(*clip);
+    static thread_local std::vector<JointSample> samples;
+    static thread_local std::vector<JointMap> own, whole;
+    _layers->sample(samples, posedJoints());
+    const std::vector<SampledClip::Joint>& joints = clip->joints();
+    own.resize(samples.size());
+    whole.resize(samples.size());
+    for (std::size_t j = 0; j < samples.size(); ++j) {
+        own[j] = mapOf(samples[j], joints[j].centre);
+        if (_needsWhole)
+            whole[j] = joints[j].parent < 0
+                           ? own[j]
+                           : whole[static_cast<std::size_t>(joints[j].parent)] * own[j];
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < _skins.size(); ++i) {
+        const osg::BoundingBox* bounds = baked ? &baked->skins[i].boundsAt(at) : nullptr;
+        const Pose* from = baked ? &baked->skins[i].poses[at.from] : nullptr;
+        good = poseSkin(_skins[i], own, whole, twist, from, bounds) && good;
+    }
+    for (const Rigid& rigid : _rigids)
+        rigid.transform->setMatrix(rigid.joint < 0
+                                       ? rigid.toParent
+                                       : toMatrix(whole[static_cast<std::size_t>(rigid.joint)]) *
+                                             rigid.toParent);
+    poseBones(whole);
+    return good;
+}
+
+void ClipPlayer::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (nv && nv->getFrameStamp()) {
+        const double now = nv->getFrameStamp()->getSimulationTime();
+        if (_started) advance(now - _last);
+        _last = now;
+        _started = true;
+    }
+    pose();
+    traverse(node, nv);
+}
+
+} // namespace osgSkin
