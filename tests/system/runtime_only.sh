@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# runtime_only.sh BUILD SOURCE FOLDER: configures the runtime, the rig and GPU kits and the
+# runtime_only.sh BUILD SOURCE FOLDER: configures the runtime, the rig, motion and GPU kits and the
 # serializers with CGAL and Assimp hidden, and installs those of BUILD alone. They must not link
 # either library, and play a character saved by BUILD's .skin plug-in. A game that links only the
-# rig kit retargets a motion and plays it.
+# motion kit, and so the rig kit, retargets a motion and plays it.
 set -euo pipefail
 build=$1 source=$2 folder=$3
 fail() {
@@ -22,11 +22,12 @@ done
 
 runtime=$(find "$folder/installed" -name 'libosgSkin.so.*' -type f)
 rig=$(find "$folder/installed" -name 'libosgSkinRig.so.*' -type f)
+motion=$(find "$folder/installed" -name 'libosgSkinMotion.so.*' -type f)
 gpu=$(find "$folder/installed" -name 'libosgSkinGpu.so.*' -type f)
 serializers=$(find "$folder/installed" -name osgdb_serializers_osgskin.so)
 walkers=$(find "$folder/installed" -name osgdb_serializers_osgskinmotion.so)
-[ "$(find "$folder/installed" -type f | wc -l)" -eq 5 ] || fail "more than the five libraries is installed"
-for file in "$runtime" "$rig" "$gpu" "$serializers" "$walkers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
+[ "$(find "$folder/installed" -type f | wc -l)" -eq 6 ] || fail "more than the six libraries is installed"
+for file in "$runtime" "$rig" "$motion" "$gpu" "$serializers" "$walkers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
   "$build"/lib/osgPlugins-*/osgdb_serializers_osgskin.so; do
   needed=$(readelf -d "$file" | grep NEEDED)
   case $file in *serializers*) ;; *) grep -q libosgDB.so <<<"$needed" && fail "$file needs osgDB" ;; esac
@@ -43,7 +44,7 @@ for extension in osgb osgt osgx; do
     "$source/tests/system/viewer.sh" "$saved" "$folder/play/$extension"
 done
 
-echo "A game that links osgSkinRig alone"
+echo "A game that links osgSkinMotion alone"
 for component in runtime dev; do
   cmake --install "$build" --component $component --prefix "$folder/development" >>"$folder/install.txt"
 done
