@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# figures.sh [SECONDS]: renews the figures of the READMEs. Each command of a README that measures is
+# figures.sh [SECONDS]: renews the figures of the READMEs and of speed.md. Each command of a README that measures is
 # run for at most SECONDS (60); its figures there are printed as "old", its output as "new". Commands
 # that need more time, a file of yours or a display are listed, and so are sections with a table of
 # figures but no command. Times are to be compared as ratios. Needs build/release with all targets.
@@ -39,7 +39,7 @@ while read -r readme; do
       esac
       rm "$output"
     done
-done < <(git ls-files '*README.md')
+done < <(git ls-files '*README.md' nodekits/speed.md)
 
 echo "== sections with a table of figures and no command"
 while read -r readme; do
@@ -47,4 +47,4 @@ while read -r readme; do
     $2 ~ /^\|.*[0-9]\.[0-9].*[|].*[0-9]\.[0-9]/ || $2 ~ /^\|.*[0-9] (us|ms|%).*\|.*[0-9] (us|ms|%)/ { table[$1] = 1 }
     $2 ~ /^    [^ ]/ || $2 ~ /`[^`]*(osgskin[a-z_]*|Tests|--benchmark|ctest)[^`]*`/ { command[$1] = 1 }
     END { for (s in table) if (!(s in command)) print file ", " s }'
-done < <(git ls-files '*README.md')
+done < <(git ls-files '*README.md' nodekits/speed.md)
