@@ -3,6 +3,7 @@
 
 #include <osgSkin/Pose>
 #include <osgSkinMotion/SampledClip>
+#include <osgSkinRig/RestSkeleton>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -30,6 +31,14 @@ inline JointMap inverse(const JointMap& a) {
 
 inline glm::dvec3 apply(const JointMap& map, const glm::dvec3& point) {
     return map.offset + map.scale * (map.rotation * point);
+}
+
+/// The rest pose of a clip's joints.
+inline RestSkeleton restOf(const SampledClip& clip) {
+    RestSkeleton rest;
+    for (const SampledClip::Joint& joint : clip.joints())
+        rest.add(joint.name, joint.parent, joint.centre);
+    return rest;
 }
 
 /// The joints' maps including those above them, in rest space.

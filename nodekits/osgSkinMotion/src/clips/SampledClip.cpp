@@ -3,6 +3,7 @@
 
 #include "clips/BakedClip.h"
 #include "clips/ClipBones.h"
+#include "clips/JointMaps.h"
 
 #include <osgSkin/Binding>
 #include <osgSkin/Error>
@@ -173,9 +174,7 @@ std::vector<std::string> jointsBelow(const SampledClip& clip, const std::string&
 }
 
 std::vector<std::string> jointsBelowRole(const SampledClip& clip, const std::string& role) {
-    RestSkeleton rest;
-    for (const SampledClip::Joint& joint : clip.joints())
-        rest.add(joint.name, joint.parent, joint.centre);
+    const RestSkeleton rest = restOf(clip);
     const int joint = recogniseJoints(rest).joint(role);
     if (joint < 0)
         throw Error("sampled clip \"" + clip.name() + "\": no joint has the role \"" + role +

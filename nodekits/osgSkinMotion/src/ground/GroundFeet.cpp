@@ -2,9 +2,9 @@
 #include <osgSkinMotion/GroundFeet>
 
 #include "bones/BoneCallbacks.h"
+#include "bones/TwoBone.h"
+#include "feet/Legs.h"
 #include "ground/LegsOnGround.h"
-#include "walk/GaitCycle.h"
-#include "walk/Soles.h"
 
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
@@ -64,70 +64,41 @@ osg::ref_ptr<GroundFeet> GroundFeet::addTo(osg::Node& character) {
     const RestSkeleton rest = readSkeleton(parts->skeleton());
     const JointRoles roles = recogniseJoints(rest);
     const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(parts->skeleton());
-    const auto jointOf = [&](const std::string& role) {
-        const int joint = roles.joint(role);
-        if (joint < 0)
-            throw Error("ground: the character's skeleton has no joint that is known as " + role);
-        return joint;
-    };
-    const auto boneOf = [&](int joint) {
-        const std::string& name = rest.joints[static_cast<std::size_t>(joint)].name;
+    const auto boneOf = [&](std::size_t joint) {
+        const std::string& name = rest.joints[joint].name;
         const auto bone = bones.find(name);
         if (bone == bones.end()) throw Error("ground: no bone \"" + name + "\"");
         return bone->second;
     };
     const osg::ref_ptr<GroundFeet> result = new GroundFeet;
     result->_toLevel = parts->toWorld();
-    const auto placeOf = [&](int joint) {
-        return toOsg(rest.joints[static_cast<std::size_t>(joint)].centre) * result->_toLevel;
-    };
-
+    RestLegs legs = findLegs(rest, roles, toGlm(result->_toLevel), {}, "ground");
+    measureSoles(*parts, toGlm(result->_toLevel), legs);
+    result->_leg = legs.length;
+    result->_floor = std::min(legs.sides[0].heel.z, legs.sides[1].heel.z);
+    const glm::dmat4 toRest = glm::inverse(toGlm(result->_toLevel));
+    for (std::size_t side = 0; side < 2; ++side) {
+        const RestLeg& at = legs.sides[side];
+        const std::array<std::size_t, 4> joints = {at.hip, at.knee, at.ankle, at.toe};
+        std::array<glm::dmat4, 4> toBone{};
+        Leg& leg = result->_legs[side];
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            leg.names[i] = rest.joints[joints[i]].name;
+            toBone[i] =
+                toGlm(osg::Matrixd(boneOf(joints[i])->getInvBindMatrixInSkeletonSpace())) * toRest;
+        }
+        leg.heel = toOsg(transformPoint(toBone[2], at.heel));
+        leg.ball = toOsg(transformPoint(toBone[2], {at.ball.x, at.ball.y, at.heel.z}));
+        leg.tip = toOsg(transformPoint(toBone[3], at.tip));
+        leg.knees = toOsg(transformDirection(toBone[0], legs.forward));
+    }
     // The lowest bone that carries all of the figure.
-    int top = jointOf("LeftUpperLeg");
+    int top = static_cast<int>(legs.sides[0].hip);
     const int head = roles.joint("Head");
-    while (top >= 0 && !(rest.isInSubtree(jointOf("RightUpperLeg"), top) &&
+    while (top >= 0 && !(rest.isInSubtree(static_cast<int>(legs.sides[1].hip), top) &&
                          (head < 0 || rest.isInSubtree(head, top))))
         top = rest.joints[static_cast<std::size_t>(top)].parent;
-
-    std::array<std::array<int, 4>, 2> joints{};
-    std::array<RestFoot, 2> feet;
-    osg::Vec3d forward;
-    result->_leg = 0.0;
-    for (std::size_t side = 0; side < 2; ++side) {
-        const std::string name = side == 0 ? "Left" : "Right";
-        const int foot = jointOf(name + "Foot"), toes = roles.joint(name + "Toe");
-        joints[side] = {jointOf(name + "UpperLeg"), jointOf(name + "LowerLeg"), foot,
-                        toes >= 0 && rest.isInSubtree(toes, foot) ? toes : foot};
-        const osg::Vec3d knee = placeOf(joints[side][1]);
-        feet[side].ankle = feet[side].ball = placeOf(foot);
-        result->_leg +=
-            0.5 * ((knee - placeOf(joints[side][0])).length() + (feet[side].ankle - knee).length());
-        if (toes >= 0) feet[side].ball = placeOf(toes);
-        forward += flat(feet[side].ball - feet[side].ankle);
-    }
-    if (!(forward.normalize() > 0.0)) forward.set(0.0, -1.0, 0.0);
-    for (RestFoot& foot : feet) // without toes' joints, in front of the ankle by a fifth of a leg
-        if (foot.ball == foot.ankle)
-            foot.ball += (forward * 0.2 - osg::Vec3d(0.0, 0.0, 0.06)) * result->_leg;
-    measureSoles(*parts, result->_toLevel, forward, result->_leg, feet);
-    result->_floor = std::min(feet[0].heel.z(), feet[1].heel.z());
-
-    const osg::Matrixd toRest = osg::Matrixd::inverse(result->_toLevel);
-    for (std::size_t side = 0; side < 2; ++side) {
-        Leg& leg = result->_legs[side];
-        const auto toBone = [&](std::size_t i) {
-            return toRest *
-                   osg::Matrixd(boneOf(joints[side][i])->getInvBindMatrixInSkeletonSpace());
-        };
-        for (std::size_t i = 0; i < leg.names.size(); ++i)
-            leg.names[i] = boneOf(joints[side][i])->getName();
-        const RestFoot& foot = feet[side];
-        leg.heel = foot.heel * toBone(2);
-        leg.ball = osg::Vec3d(foot.ball.x(), foot.ball.y(), foot.heel.z()) * toBone(2);
-        leg.tip = foot.tip * toBone(3);
-        leg.knees = osg::Matrixd::transform3x3(forward, toBone(0));
-    }
-    boneOf(top)->addUpdateCallback(result);
+    boneOf(static_cast<std::size_t>(top))->addUpdateCallback(result);
     return result;
 }
 
@@ -180,52 +151,53 @@ std::optional<GroundPlane> GroundFeet::findGround(const osg::Vec3d& point) const
     osg::Vec3d normal = osg::Matrixd::transform3x3(_toWorld, surface.normal);
     if (!(std::abs(height - _floor) <= range) || !(normal.normalize() > 0.0) || !normal.valid())
         return {};
-    return GroundPlane{{point.x(), point.y(), height}, normal};
+    return GroundPlane{{point.x(), point.y(), height}, toGlm(normal)};
 }
 
 void GroundFeet::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, double dt) {
+    const glm::dmat4 toLevel = toGlm(_toLevel);
     std::array<ClipLeg, 2> clip;
     for (std::size_t side = 0; side < 2; ++side) {
         const Leg& leg = _legs[side];
-        std::array<osg::Matrixd, 4> places;
+        std::array<glm::dmat4, 4> places{};
         for (std::size_t i = 0; i < places.size(); ++i) {
-            places[i] = osg::Matrixd(leg.bones[i]->getMatrixInSkeletonSpace()) * _toLevel;
-            if (!places[i].valid()) return restart();
+            const osg::Matrixd place = leg.bones[i]->getMatrixInSkeletonSpace();
+            if (!place.valid()) return restart();
+            places[i] = toLevel * toGlm(place);
         }
-        osg::Vec3d knees = osg::Matrixd::transform3x3(leg.knees, places[0]);
-        knees.normalize();
-        clip[side] = {places[0].getTrans(),
-                      places[1].getTrans(),
-                      places[2].getTrans(),
-                      knees,
-                      {leg.heel * places[2], leg.ball * places[2], leg.tip * places[3]}};
+        clip[side] = {glm::dvec3(places[0][3]),
+                      glm::dvec3(places[1][3]),
+                      glm::dvec3(places[2][3]),
+                      unitOrZero(transformDirection(places[0], toGlm(leg.knees))),
+                      {transformPoint(places[2], toGlm(leg.heel)),
+                       transformPoint(places[2], toGlm(leg.ball)),
+                       transformPoint(places[3], toGlm(leg.tip))}};
     }
     if (!_onGround) _onGround = std::make_unique<LegsOnGround>(_floor, _leg);
-    const osg::Matrixd carried = _toWorld * osg::Matrixd::inverse(toWorld);
+    const glm::dmat4 carried = toGlm(_toWorld * osg::Matrixd::inverse(toWorld));
     _toWorld = toWorld;
     _onGround->step(clip, dt, carried,
-                    [this](const osg::Vec3d& point) { return findGround(point); });
+                    [this](const glm::dvec3& point) { return findGround(toOsg(point)); });
 
-    const osg::Matrixd toSkeleton = osg::Matrixd::inverse(_toLevel);
-    const auto turn = [&](osgAnimation::Bone& bone, const osg::Quat& rotation) {
-        osg::Vec3d axis(rotation.x(), rotation.y(), rotation.z());
-        const double length = axis.length();
-        axis = osg::Matrixd::transform3x3(axis, toSkeleton);
-        if (axis.normalize() > 0.0)
-            rotateBone(bone, osg::Quat(osg::Vec4d(axis * length, rotation.w())));
+    const glm::dmat4 toSkeleton = glm::inverse(toLevel);
+    const auto turn = [&](osgAnimation::Bone& bone, const glm::dquat& rotation) {
+        const glm::dvec3 axis(rotation.x, rotation.y, rotation.z);
+        const glm::dvec3 inSkeleton =
+            unitOrZero(transformDirection(toSkeleton, axis)) * glm::length(axis);
+        rotateBone(bone, toOsg(glm::dquat(rotation.w, inSkeleton)));
     };
+    const glm::dvec3 up = transformDirection(toSkeleton, {0.0, 0.0, _onGround->lift() * _weight});
     osg::Matrixd placed = top.getMatrixInSkeletonSpace();
-    placed.postMultTranslate(
-        osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, _onGround->lift() * _weight), toSkeleton));
+    placed.postMultTranslate(toOsg(up));
     top.setMatrixInSkeletonSpace(placed);
     rotateBone(top, osg::Quat()); // moves the bones below
     for (std::size_t side = 0; side < 2; ++side) {
         LegsOnGround::Turns turns = _onGround->turns(side);
-        for (osg::Quat* rotation : {&turns.thigh, &turns.shin, &turns.foot})
-            rotation->slerp(_weight, osg::Quat(), osg::Quat(*rotation));
-        turn(*_legs[side].bones[0], turns.thigh); // OSG's product rotates by the left factor first
-        turn(*_legs[side].bones[1], turns.thigh.inverse() * turns.shin);
-        turn(*_legs[side].bones[2], turns.shin.inverse() * turns.foot);
+        for (glm::dquat* rotation : {&turns.thigh, &turns.shin, &turns.foot})
+            *rotation = glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), *rotation, _weight);
+        turn(*_legs[side].bones[0], turns.thigh);
+        turn(*_legs[side].bones[1], turns.shin * glm::conjugate(turns.thigh));
+        turn(*_legs[side].bones[2], turns.foot * glm::conjugate(turns.shin));
     }
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osg/Matrixd>
-#include <osg/Quat>
-#include <osg/Vec3d>
+#include <osgSkin/GlmTypes>
 
 #include <array>
 #include <cstddef>
@@ -14,17 +12,17 @@ namespace osgSkin {
 
 /// A leg of a clip's pose.
 struct ClipLeg {
-    osg::Vec3d hip, knee, ankle;
-    osg::Vec3d knees;               ///< unit, the direction in which the thigh's knee points
-    std::array<osg::Vec3d, 3> sole; ///< its heel, ball and tip
+    glm::dvec3 hip, knee, ankle;
+    glm::dvec3 knees;               ///< unit, the direction in which the thigh's knee points
+    std::array<glm::dvec3, 3> sole; ///< its heel, ball and tip
 };
 
 /// A plane that a foot may stand on.
 struct GroundPlane {
-    osg::Vec3d point;
-    osg::Vec3d normal{0.0, 0.0, 1.0}; ///< unit, upwards
+    glm::dvec3 point;
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit, upwards
 
-    double heightAt(const osg::Vec3d& place) const;
+    double heightAt(const glm::dvec3& place) const;
 };
 
 /// Moves the legs of a figure whose clips were made on a level floor to other ground.
@@ -33,11 +31,11 @@ struct GroundPlane {
 class LegsOnGround {
 public:
     /// Finds the ground above or below a point, whatever its height.
-    using FindGround = std::function<std::optional<GroundPlane>(const osg::Vec3d& point)>;
+    using FindGround = std::function<std::optional<GroundPlane>(const glm::dvec3& point)>;
 
     /// The rotations of a leg's bones in the figure's space, from their clip's directions.
     struct Turns {
-        osg::Quat thigh, shin, foot;
+        glm::dquat thigh{1.0, 0.0, 0.0, 0.0}, shin = thigh, foot = thigh;
     };
 
     /// \param floor height that the clips stand on
@@ -50,7 +48,7 @@ public:
     /// \param dt seconds since the last step
     /// \param carried from the space of the last step to the present one: how the figure was moved
     /// \param ground is called three to five times for each foot, and three times more at an edge
-    void step(const std::array<ClipLeg, 2>& clip, double dt, const osg::Matrixd& carried,
+    void step(const std::array<ClipLeg, 2>& clip, double dt, const glm::dmat4& carried,
               const FindGround& ground);
 
     /// Of the hips, and all that they carry, along Z.
@@ -59,32 +57,34 @@ public:
 
 private:
     enum SolePoint : std::size_t { Heel, Ball, Tip };
-    using SolePoints = std::array<osg::Vec3d, 3>;
+    using SolePoints = std::array<glm::dvec3, 3>;
 
     struct Foot {
         bool isPlanted = true;
         GroundPlane from, next;     ///< on which it stood, and is to stand; while planted the same
-        osg::Vec3d lifted;          ///< the clip's ball of the foot where it left `from`
-        osg::Vec3d shift;           ///< from the clip's place, off the edges of steps
+        glm::dvec3 lifted{0.0};     ///< the clip's ball of the foot where it left `from`
+        glm::dvec3 shift{0.0};      ///< from the clip's place, off the edges of steps
         double way = 1.0;           ///< share of its way through the air
         double share = 1.0;         ///< of the way to the height of `next`
         double clear = 0.0;         ///< over that way, for edges between
         double error = 0.0;         ///< of the height at which it is shown, to be lost
         double errorSpeed = 0.0;    ///< a second
-        osg::Vec3d normal{0, 0, 1}; ///< as it is shown
-        SolePoints sole;            ///< the clip's, of the last step
-        osg::Vec3d speed;           ///< of its ball over the ground, level
+        glm::dvec3 normal{0, 0, 1}; ///< as it is shown
+        SolePoints sole{};          ///< the clip's, of the last step
+        glm::dvec3 speed{0.0};      ///< of its ball over the ground, level
         double brake = 0.0;         ///< how much slower it becomes in a second
         double stood = 0.0;         ///< seconds since it was set down
         double slides = 0.0;        ///< seconds for which it has been faster than a standing foot
-        osg::Vec3d ankle;           ///< where the leg should end
+        glm::dvec3 ankle{0.0};      ///< where the leg should end
         Turns turns;
     };
 
-    static double heightOf(const Foot& foot, const osg::Vec3d& place);
+    static double heightOf(const Foot& foot, const glm::dvec3& place);
+    class BelowSole;
+
     GroundPlane findPlane(const SolePoints& sole, const GroundPlane* chosen,
-                          const FindGround& ground, osg::Vec3d& shift) const;
-    double wayLeft(const ClipLeg& leg, const Foot& foot, const Foot& other) const;
+                          const FindGround& ground, glm::dvec3& shift) const;
+    double remainingSwing(const ClipLeg& leg, const Foot& foot, const Foot& other) const;
     void measure(const ClipLeg& leg, Foot& foot, double dt) const;
     void stand(const ClipLeg& leg, Foot& foot, double dt, const FindGround& ground) const;
     void swing(const ClipLeg& leg, Foot& foot, const Foot& other, double dt,

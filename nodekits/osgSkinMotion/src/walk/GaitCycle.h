@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "feet/FootTrack.h"
+
 #include <osgSkinMotion/Gaits>
 #include <osgSkinMotion/SampledClip>
 
-#include <osg/Vec3d>
 #include <osg/ref_ptr>
 
 #include <array>
@@ -13,29 +14,11 @@
 
 namespace osgSkin {
 
-/// The part of a vector along the ground. Walker space.
-inline osg::Vec3d flat(const osg::Vec3d& v) {
-    return {v.x(), v.y(), 0.0};
-}
-
 /// A figure's legs and the way to walker space, in which clips are measured.
-struct WalkingBody {
+struct WalkingBody : TrackedFeet {
     std::array<Gaits::Leg, 2> legs;
     std::size_t hips = 0; ///< the joint whose turning is the figure's
-    osg::Matrixd toWalker;
-    osg::Vec3d forward; ///< unit
-    double leg = 0.0;   ///< from hip to ankle
 };
-
-/// Where the figure is in a clip's samples, walker space.
-struct Track {
-    std::vector<osg::Vec3d> root;                ///< the root joint
-    std::array<std::vector<osg::Vec3d>, 2> ball; ///< of the left and the right foot
-};
-Track findTrack(const SampledClip& clip, const WalkingBody& body);
-
-/// Whether a clip's end continues its beginning, apart from its way along the ground.
-bool isLoop(const SampledClip& clip);
 
 /// The mean speed along the ground, units of walker space a second; of a clip on the spot as the
 /// feet on the floor show it.

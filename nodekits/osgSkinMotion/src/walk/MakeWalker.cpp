@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinMotion/MakeWalker>
 
-#include "walk/GaitCycle.h"
-#include "walk/Soles.h"
-
 #include "clips/JointMaps.h"
+#include "feet/Legs.h"
+#include "walk/GaitCycle.h"
 
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/Error>
@@ -12,11 +11,12 @@
 #include <osgSkin/GlmOsg>
 #include <osgSkinMotion/ClipCharacter>
 #include <osgSkinRig/JointRoles>
-#include <osgSkinRig/ReadSkeleton>
 
 #include <osg/ComputeBoundsVisitor>
-#include <osg/Math>
 #include <osg/MatrixTransform>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -33,15 +33,11 @@ namespace {
 class WalkerMaker {
 public:
     WalkerMaker(osg::Node& character, const WalkerOptions& options)
-        : _options(options), _character(ClipCharacter::create(character)) {
-        _skeleton = readSkeleton(_character->skeleton());
-        _roles = recogniseJoints(_skeleton);
-    }
+        : _options(options), _character(ClipCharacter::create(character)) {}
 
     osg::ref_ptr<Walker> make(WalkerReport& report) {
         findClips(report);
         Gaits::Set set;
-        findSoles();
         set.legs = _body.legs;
         set.facing = facing();
         const double floor = findStanding(set, report);
@@ -55,13 +51,13 @@ public:
         for (const std::string& name : _options.others)
             set.others.push_back(onTheSpot(*clip(name), _body));
         set.upperBody = jointOf(_roles.joint("Spine") >= 0 ? "Spine" : "Hips");
-        set.toWalker = _body.toWalker;
+        set.toWalker = toOsg(_body.toLevel);
         return build(set);
     }
 
 private:
     double facing() const {
-        return _options.forward == WalkerOptions::Forward::PlusX ? 0.0 : -0.5 * osg::PI;
+        return _options.forward == WalkerOptions::Forward::PlusX ? 0.0 : -glm::half_pi<double>();
     }
 
     const SampledClip* clip(const std::string& name) { return _character->clip(name).get(); }
@@ -72,17 +68,14 @@ private:
                            [&](const auto& animation) { return animation->getName() == name; });
     }
 
-    /// The place of a role's first joint in the clips.
+    /// A role's first joint.
     std::size_t jointOf(const std::string& role) const {
         const int joint = _roles.joint(role);
-        const int found =
-            joint < 0 ? -1 : _clip->find(_skeleton.joints[static_cast<std::size_t>(joint)].name);
-        if (found < 0) failWalker("the character's skeleton has no joint that is known as " + role);
-        return static_cast<std::size_t>(found);
+        if (joint < 0) failWalker("the character's skeleton has no joint that is known as " + role);
+        return static_cast<std::size_t>(joint);
     }
 
     void findBody();
-    void findSoles();
     void findClips(WalkerReport& report);
     std::string named(const std::string& asked, const std::vector<std::string>& words) const;
     double findStanding(Gaits::Set& set, const WalkerReport& report);
@@ -91,8 +84,7 @@ private:
 
     const WalkerOptions _options;
     const osg::ref_ptr<ClipCharacter> _character;
-    RestSkeleton _skeleton;
-    JointRoles _roles;
+    JointRoles _roles;                     ///< of the clips' joints
     osg::ref_ptr<const SampledClip> _clip; ///< one of the character's, for its joints
     WalkingBody _body;
 };
@@ -117,54 +109,30 @@ std::string WalkerMaker::named(const std::string& asked,
 }
 
 void WalkerMaker::findBody() {
+    const RestSkeleton rest = restOf(*_clip);
+    _roles = recogniseJoints(rest);
     _body = {};
-    osg::Matrixd& toWalker = _body.toWalker;
-    toWalker =
-        _character->toWorld() * osg::Matrixd::rotate(facing() + 0.5 * osg::PI, osg::Vec3d(0, 0, 1));
-    _body.forward.set(std::cos(facing()), std::sin(facing()), 0.0);
+    _body.toLevel =
+        glm::rotate(glm::dmat4(1.0), facing() + glm::half_pi<double>(), glm::dvec3(0.0, 0.0, 1.0)) *
+        toGlm(_character->toWorld());
+    _body.forward = {std::cos(facing()), std::sin(facing()), 0.0};
     _body.hips = jointOf("Hips");
-    const auto placeOf = [&](std::size_t joint) {
-        return toOsg(_clip->joints()[joint].centre) * toWalker;
-    };
-    const std::array<std::string, 2> sides = {"Left", "Right"};
-    for (std::size_t side = 0; side < sides.size(); ++side) {
-        Gaits::Leg& leg = _body.legs[side];
-        leg.hip = jointOf(sides[side] + "UpperLeg");
-        leg.knee = jointOf(sides[side] + "LowerLeg");
-        leg.ankle = jointOf(sides[side] + "Foot");
-        const osg::Vec3d ankle = placeOf(leg.ankle);
-        const double length =
-            (placeOf(leg.knee) - placeOf(leg.hip)).length() + (ankle - placeOf(leg.knee)).length();
-        _body.leg += 0.5 * length;
-        // Without a toe's joint the ball is in front of the ankle by a fifth of the leg.
-        const int toe = _roles.joint(sides[side] + "Toe");
-        const int found =
-            toe < 0 ? -1 : _clip->find(_skeleton.joints[static_cast<std::size_t>(toe)].name);
-        int above = found;
-        while (above > static_cast<int>(leg.ankle))
-            above = _clip->joints()[static_cast<std::size_t>(above)].parent;
-        leg.toe =
-            above == static_cast<int>(leg.ankle) ? static_cast<std::size_t>(found) : leg.ankle;
-        const osg::Vec3d ball = found >= 0 ? placeOf(static_cast<std::size_t>(found))
-                                           : ankle + _body.forward * (0.2 * length) -
-                                                 osg::Vec3d(0.0, 0.0, 0.06 * length);
-        leg.ball = toGlm(ball * osg::Matrixd::inverse(toWalker));
-    }
-}
-
-/// Where the soles of the rest pose begin and end.
-void WalkerMaker::findSoles() {
-    std::array<RestFoot, 2> feet;
-    for (std::size_t side = 0; side < feet.size(); ++side) {
-        const Gaits::Leg& leg = _body.legs[side];
-        feet[side].ankle = toOsg(_clip->joints()[leg.ankle].centre) * _body.toWalker;
-        feet[side].ball = toOsg(leg.ball) * _body.toWalker;
-    }
-    measureSoles(*_character, _body.toWalker, _body.forward, _body.leg, feet);
-    const osg::Matrixd toRest = osg::Matrixd::inverse(_body.toWalker);
-    for (std::size_t side = 0; side < feet.size(); ++side) {
-        _body.legs[side].heel = toGlm(feet[side].heel * toRest);
-        _body.legs[side].tip = toGlm(feet[side].tip * toRest);
+    RestLegs legs = findLegs(rest, _roles, _body.toLevel, _body.forward, "walker");
+    measureSoles(*_character, _body.toLevel, legs);
+    _body.leg = legs.length;
+    const glm::dmat4 toRest = glm::inverse(_body.toLevel);
+    for (std::size_t side = 0; side < legs.sides.size(); ++side) {
+        const RestLeg& leg = legs.sides[side];
+        const glm::dvec3 ball = transformPoint(toRest, leg.ball);
+        _body.legs[side] = {leg.hip,
+                            leg.knee,
+                            leg.ankle,
+                            leg.toe,
+                            transformPoint(toRest, leg.heel),
+                            ball,
+                            transformPoint(toRest, leg.tip)};
+        _body.ankles[side] = leg.ankle;
+        _body.balls[side] = ball;
     }
 }
 
@@ -199,10 +167,10 @@ void WalkerMaker::findClips(WalkerReport& report) {
 double WalkerMaker::findStanding(Gaits::Set& set, const WalkerReport& report) {
     if (!report.standing.empty()) set.standing = onTheSpot(*clip(report.standing), _body);
     double floor = 0.0;
-    for (const Gaits::Leg& leg : _body.legs) floor += 0.5 * (toOsg(leg.ball) * _body.toWalker).z();
+    for (const glm::dvec3& ball : _body.balls) floor += 0.5 * transformPoint(_body.toLevel, ball).z;
     if (!set.standing) return floor;
-    const Track track = findTrack(*set.standing, _body);
-    return 0.5 * (track.ball[0].front().z() + track.ball[1].front().z());
+    const FootTrack track = findTrack(*set.standing, _body);
+    return 0.5 * (track.ball[0].front().z + track.ball[1].front().z);
 }
 
 /// A standing pose made of a walk: its mean, on straight legs.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Where a walker's feet stand, and the legs that reach them.
-#include "walk/GaitCycle.h"
+#include "bones/TwoBone.h"
+#include "feet/Legs.h"
 #include "walk/WalkPlayer.h"
 
-#include <osgSkin/GlmOsg>
-#include <osgSkinMotion/RotateBone>
-
-#include <osg/Math>
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,22 +23,26 @@ constexpr double kMaxReach = 0.5;   ///< leg lengths by which a planted foot may
 constexpr double kStraight = 0.999; ///< of a leg's length, which it may have
 constexpr double kMaxDrop = 0.12;   ///< leg lengths by which hips are lowered for planted feet
 
-double angleOf(const osg::Vec3d& direction) {
-    return std::atan2(direction.y(), direction.x());
+double angleOf(const glm::dvec3& direction) {
+    return std::atan2(direction.y, direction.x);
 }
 
 double wrapped(double angle) {
-    return std::remainder(angle, 2.0 * osg::PI);
+    return std::remainder(angle, glm::two_pi<double>());
+}
+
+glm::dquat aboutZ(double angle) {
+    return glm::angleAxis(angle, glm::dvec3(0.0, 0.0, 1.0));
 }
 
 } // namespace
 
 /// Makes a point of a foot's sole the one about which it turns and rolls.
 void WalkPlayer::rollOnto(Foot& foot, std::size_t side, SolePoint point) {
-    const osg::Vec3d before = soleOf(side, foot.pivot), now = soleOf(side, point);
-    foot.offset += before + osg::Quat(foot.turn, osg::Vec3d(0, 0, 1)) * (now - before) - now;
+    const glm::dvec3 before = soleOf(side, foot.pivot), now = soleOf(side, point);
+    foot.offset += before + aboutZ(foot.turn) * (now - before) - now;
     foot.pivot = point;
-    foot.spot = (now + foot.offset) * _place;
+    foot.spot = transformPoint(_place, now + foot.offset);
 }
 
 /// Plants a foot where it is.
@@ -47,21 +50,20 @@ void WalkPlayer::plant(Foot& foot, std::size_t side) {
     foot.isPlanted = foot.isPlaced = true;
     foot.step = -1.0;
     rollOnto(foot, side, pivotOf(side, foot.pivot));
-    foot.heading =
-        osg::Matrixd::transform3x3(osg::Quat(foot.turn, osg::Vec3d(0, 0, 1)) * _forward, _place);
+    foot.heading = transformDirection(_place, aboutZ(foot.turn) * _forward);
 }
 
 /// Where feet are beside the clips' feet: planted ones keep their place on the ground, others come
 /// back to their clip until they are set down.
 void WalkPlayer::moveFeet(double dt, double phaseStep) {
     const Gaits::Set& set = _gaits->get();
-    const osg::Matrixd toWalker = osg::Matrixd::inverse(_place);
+    const glm::dmat4 toWalker = glm::inverse(_place);
     const bool goes = _walking > 0.0;
     for (std::size_t side = 0; side < _feet.size(); ++side) {
         Foot& foot = _feet[side];
         foot.lift = 0.0;
         if (!foot.isPlaced) { // stand where the clips say
-            foot.offset = {};
+            foot.offset = glm::dvec3(0.0);
             foot.turn = 0.0;
             plant(foot, side);
         }
@@ -72,12 +74,12 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
             isStopping ? foot.isPlanted : !goes || gait.contacts[side].contains(_phase);
         if (carries && !foot.isPlanted) plant(foot, side);
         if (foot.isPlanted && foot.step < 0.0) {
-            const double down = towards(foot.offset.z(), _floor - heightOf(side), _leg * dt);
-            foot.offset = flat(foot.spot * toWalker - soleOf(side, foot.pivot));
-            foot.offset.z() = down;
-            foot.turn = wrapped(angleOf(osg::Matrixd::transform3x3(foot.heading, toWalker)) -
-                                angleOf(_forward));
-            const double off = flat(foot.offset).length(), most = kMaxReach * _leg;
+            const double down = towards(foot.offset.z, _floor - heightOf(side), _leg * dt);
+            foot.offset = level(transformPoint(toWalker, foot.spot) - soleOf(side, foot.pivot));
+            foot.offset.z = down;
+            foot.turn =
+                wrapped(angleOf(transformDirection(toWalker, foot.heading)) - angleOf(_forward));
+            const double off = glm::length(level(foot.offset)), most = kMaxReach * _leg;
             if (goes && off > most) { // dragged along
                 foot.offset *= most / off;
                 plant(foot, side);
@@ -103,24 +105,25 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
         foot.turn *= 1.0 - std::min(1.0, share);
         const double clear = 4.0 * kClearance * _leg * _walking * toBegin * toEnd /
                              ((toBegin + toEnd) * (toBegin + toEnd) + 1e-9);
-        foot.lift = std::max(foot.lift, _floor + clear - heightOf(side) - foot.offset.z());
+        foot.lift = std::max(foot.lift, _floor + clear - heightOf(side) - foot.offset.z);
     }
     if (goes)
         for (Foot& foot : _feet) foot.step = -1.0;
     else
         stepOnTheSpot(dt);
     for (std::size_t side = 0; side < _feet.size(); ++side) // nothing sinks into the floor
-        _feet[side].offset.z() = std::max(_feet[side].offset.z(), _floor - heightOf(side));
+        _feet[side].offset.z = std::max(_feet[side].offset.z, _floor - heightOf(side));
 }
 
 /// Brings standing feet to their place, one after the other.
 void WalkPlayer::stepOnTheSpot(double dt) {
     const auto isOff = [&](const Foot& foot) {
-        return flat(foot.offset).length() > kMaxOffset * _leg || std::abs(foot.turn) > kMaxTurn;
+        return glm::length(level(foot.offset)) > kMaxOffset * _leg ||
+               std::abs(foot.turn) > kMaxTurn;
     };
     if (_feet[0].step < 0.0 && _feet[1].step < 0.0) {
         const std::size_t farther =
-            flat(_feet[0].offset).length() > flat(_feet[1].offset).length() ? 0 : 1;
+            glm::length(level(_feet[0].offset)) > glm::length(level(_feet[1].offset)) ? 0 : 1;
         const std::size_t next = isOff(_feet[farther]) ? farther : 1 - farther;
         if (!isOff(_feet[next])) return;
         _feet[next].step = 0.0;
@@ -131,7 +134,7 @@ void WalkPlayer::stepOnTheSpot(double dt) {
         Foot& foot = _feet[side];
         if (foot.step < 0.0) continue;
         foot.step += dt / kStepTime;
-        const double left = 1.0 - smooth(foot.step);
+        const double left = 1.0 - glm::smoothstep(0.0, 1.0, foot.step);
         foot.offset = foot.stepOffset * left;
         foot.turn = foot.stepTurn * left;
         foot.lift = 4.0 * kStepLift * _leg * left * (1.0 - left);
@@ -162,24 +165,23 @@ void WalkPlayer::findLeg(std::size_t first, std::size_t last) {
 }
 
 /// Lowers the hips until the legs reach the planted feet.
-void WalkPlayer::lowerHips(const std::array<osg::Vec3d, 2>& targets) {
+void WalkPlayer::lowerHips(const std::array<glm::dvec3, 2>& targets) {
     const Gaits::Set& set = _gaits->get();
     double drop = 0.0;
     for (std::size_t side = 0; side < targets.size(); ++side) {
         const Gaits::Leg& leg = set.legs[side];
-        const osg::Vec3d hip = jointOf(leg.hip);
+        const glm::dvec3 hip = jointOf(leg.hip);
         const double length = kStraight * legLength(leg);
-        const double level = flat(targets[side] - hip).length();
-        if (level >= length || !_feet[side].isPlanted) continue;
-        drop = std::max(drop,
-                        hip.z() - targets[side].z() - std::sqrt(length * length - level * level));
+        const double away = glm::length(level(targets[side] - hip));
+        if (away >= length || !_feet[side].isPlanted) continue;
+        drop = std::max(drop, hip.z - targets[side].z - std::sqrt(length * length - away * away));
     }
     if (!(drop > 0.0)) return;
     drop = std::min(drop, kMaxDrop * _leg);
     const std::size_t root = set.standing->rootJoint();
     const int parent = set.standing->joints()[root].parent;
     const JointMap above = parent < 0 ? JointMap() : _whole[static_cast<std::size_t>(parent)];
-    const glm::dvec3 down = glm::conjugate(_toWalker) * glm::dvec3(0.0, 0.0, -drop / _unit);
+    const glm::dvec3 down = glm::conjugate(_fromRest) * glm::dvec3(0.0, 0.0, -drop / _unit);
     _joints[root].translation += glm::conjugate(above.rotation) * down / above.scale;
     findWhole(set.standing->joints(), _joints.data(), _whole);
 }
@@ -187,29 +189,28 @@ void WalkPlayer::lowerHips(const std::array<osg::Vec3d, 2>& targets) {
 /// Bends the legs so that the feet are where they are meant to be.
 void WalkPlayer::bendLegs() {
     const Gaits::Set& set = _gaits->get();
-    const osg::Vec3d up(0, 0, 1);
-    std::array<osg::Vec3d, 2> targets;
+    std::array<glm::dvec3, 2> targets;
     std::array<glm::dquat, 2> soles;
     bool isNeeded = false;
     for (std::size_t side = 0; side < _feet.size(); ++side) {
         const Foot& foot = _feet[side];
-        const osg::Vec3d pivot = soleOf(side, foot.pivot), ankle = jointOf(set.legs[side].ankle);
-        targets[side] =
-            pivot + osg::Quat(foot.turn, up) * (ankle - pivot) + foot.offset + up * foot.lift;
-        isNeeded = isNeeded || (targets[side] - ankle).length() > 1e-9 * _leg || foot.turn != 0.0;
+        const glm::dvec3 pivot = soleOf(side, foot.pivot), ankle = jointOf(set.legs[side].ankle);
+        targets[side] = pivot + aboutZ(foot.turn) * (ankle - pivot) + foot.offset +
+                        glm::dvec3(0.0, 0.0, foot.lift);
+        isNeeded =
+            isNeeded || glm::distance(targets[side], ankle) > 1e-9 * _leg || foot.turn != 0.0;
     }
     if (!isNeeded) return;
-    const auto toRest = [&](const osg::Quat& rotation) {
-        return glm::conjugate(_toWalker) * toGlm(rotation) * _toWalker;
+    const auto toRest = [&](const glm::dquat& rotation) {
+        return glm::conjugate(_fromRest) * rotation * _fromRest;
     };
     for (std::size_t side = 0; side < _feet.size(); ++side)
-        soles[side] =
-            toRest(osg::Quat(_feet[side].turn, up)) * _whole[set.legs[side].ankle].rotation;
+        soles[side] = toRest(aboutZ(_feet[side].turn)) * _whole[set.legs[side].ankle].rotation;
     lowerHips(targets);
     for (std::size_t side = 0; side < _feet.size(); ++side) {
         const Gaits::Leg& leg = set.legs[side];
-        const osg::Vec3d hip = jointOf(leg.hip), knee = jointOf(leg.knee);
-        const LimbRotations limb = reachRotations(hip, knee, jointOf(leg.ankle), targets[side], {});
+        const LimbTurns limb =
+            reachTurns(jointOf(leg.hip), jointOf(leg.knee), jointOf(leg.ankle), targets[side]);
         rotateJoint(leg.knee, toRest(limb.lower));
         rotateJoint(leg.hip, toRest(limb.upper));
         rotateJoint(leg.ankle, soles[side] * glm::conjugate(_whole[leg.ankle].rotation));

@@ -2,9 +2,11 @@
 #include "walk/WalkPlayer.h"
 
 #include "clips/BakedClip.h"
-#include "walk/GaitCycle.h"
+#include "feet/Legs.h"
 
 #include <osgSkin/GlmOsg>
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,45 +27,43 @@ constexpr double kLevel = 0.003; ///< leg lengths by which a point of the sole i
 } // namespace
 
 WalkPlayer::WalkPlayer(const osg::ref_ptr<const Gaits>& gaits)
-    : _gaits(gaits), _forward(std::cos(gaits->get().facing), std::sin(gaits->get().facing), 0.0),
-      _toWalker(toGlm(gaits->get().toWalker.getRotate())) {
+    : _gaits(gaits), _toWalker(toGlm(gaits->get().toWalker)), _fromRest(rotationOf(_toWalker)),
+      _forward(std::cos(gaits->get().facing), std::sin(gaits->get().facing), 0.0) {
     const Gaits::Set& set = _gaits->get();
-    _unit = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), set.toWalker).length();
+    _unit = glm::length(transformDirection(_toWalker, {0.0, 0.0, 1.0}));
     setLayer(0, {set.standing, 0.0, 0.0, true});
     stand();
     for (std::size_t side = 0; side < set.legs.size(); ++side) {
         _leg += 0.5 * legLength(set.legs[side]);
-        _height += 0.5 * jointOf(set.legs[side].hip).z();
-        _radius[side] = (toOsg(set.legs[side].ball) * set.toWalker).z() -
-                        (toOsg(set.legs[side].heel) * set.toWalker).z();
+        _height += 0.5 * jointOf(set.legs[side].hip).z;
+        _radius[side] = transformDirection(_toWalker, set.legs[side].ball - set.legs[side].heel).z;
         _floor = std::min(_floor, heightOf(side));
     }
 }
 
-osg::Vec3d WalkPlayer::jointOf(std::size_t joint) const {
+glm::dvec3 WalkPlayer::jointOf(std::size_t joint) const {
     const std::vector<SampledClip::Joint>& joints = _gaits->get().standing->joints();
-    return toOsg(apply(_whole[joint], joints[joint].centre)) * _gaits->get().toWalker;
+    return transformPoint(_toWalker, apply(_whole[joint], joints[joint].centre));
 }
 
 /// Where the clips have a point of a sole.
-osg::Vec3d WalkPlayer::soleOf(std::size_t side, SolePoint point) const {
+glm::dvec3 WalkPlayer::soleOf(std::size_t side, SolePoint point) const {
     const Gaits::Leg& leg = _gaits->get().legs[side];
     const glm::dvec3& place = point == Heel ? leg.heel : point == Ball ? leg.ball : leg.tip;
-    return toOsg(apply(_whole[point == Tip ? leg.toe : leg.ankle], place)) *
-               _gaits->get().toWalker -
-           osg::Vec3d(0.0, 0.0, point == Ball ? _radius[side] : 0.0);
+    return transformPoint(_toWalker, apply(_whole[point == Tip ? leg.toe : leg.ankle], place)) -
+           glm::dvec3(0.0, 0.0, point == Ball ? _radius[side] : 0.0);
 }
 
 double WalkPlayer::heightOf(std::size_t side) const {
-    return std::min({soleOf(side, Heel).z(), soleOf(side, Ball).z(), soleOf(side, Tip).z()});
+    return std::min({soleOf(side, Heel).z, soleOf(side, Ball).z, soleOf(side, Tip).z});
 }
 
 /// The point on which a foot rolls: the one that it rolled on before, unless another is lower.
 WalkPlayer::SolePoint WalkPlayer::pivotOf(std::size_t side, SolePoint now) const {
     SolePoint pivot = now;
-    double height = soleOf(side, now).z() - kLevel * _leg;
+    double height = soleOf(side, now).z - kLevel * _leg;
     for (const SolePoint point : {Heel, Ball, Tip}) {
-        const double other = soleOf(side, point).z();
+        const double other = soleOf(side, point).z;
         if (other >= height) continue;
         height = other;
         pivot = point;
@@ -72,8 +72,8 @@ WalkPlayer::SolePoint WalkPlayer::pivotOf(std::size_t side, SolePoint now) const
 }
 
 double WalkPlayer::legLength(const Gaits::Leg& leg) const {
-    const osg::Vec3d knee = jointOf(leg.knee);
-    return (knee - jointOf(leg.hip)).length() + (jointOf(leg.ankle) - knee).length();
+    const glm::dvec3 knee = jointOf(leg.knee);
+    return glm::distance(knee, jointOf(leg.hip)) + glm::distance(jointOf(leg.ankle), knee);
 }
 
 /// The way of one cycle of what is shown.
@@ -87,17 +87,17 @@ double WalkPlayer::stride() const {
 
 /// The way since the last call along the heading, in the walker's own units. A jump is none, and
 /// takes the feet along.
-double WalkPlayer::measureWay(const osg::Matrixd& place) {
-    osg::Vec3d way;
-    if (_isPlaced) way = flat(-(_place.getTrans() * osg::Matrixd::inverse(place)));
-    if (!_isPlaced || !(way.length() <= kJump * _height)) {
+double WalkPlayer::measureWay(const glm::dmat4& place) {
+    glm::dvec3 way(0.0);
+    if (_isPlaced) way = -level(transformPoint(glm::inverse(place), glm::dvec3(_place[3])));
+    if (!_isPlaced || !(glm::length(way) <= kJump * _height)) {
         for (Foot& foot : _feet) foot.isPlaced = false;
-        way = {};
+        way = glm::dvec3(0.0);
     }
     _place = place;
     _isPlaced = true;
-    const double forward = way * _forward;
-    return std::copysign(way.length(), forward < -0.3 * way.length() ? -1.0 : 1.0);
+    const double length = glm::length(way);
+    return std::copysign(length, glm::dot(way, _forward) < -0.3 * length ? -1.0 : 1.0);
 }
 
 void WalkPlayer::measureSpeed(double way, double dt) {
@@ -117,7 +117,7 @@ void WalkPlayer::chooseGait(double dt) {
     if (isMoving) walking = std::clamp(_pace / walk, kShortest, 1.0);
     if (isMoving && set.running.clip) {
         const double run = set.running.speed(), from = walk + 0.3 * (run - walk);
-        running = smooth((_pace - from) / (0.5 * (run - walk)));
+        running = glm::smoothstep(from, from + 0.5 * (run - walk), _pace);
     }
     if (isMoving && _walking == 0.0) { // the right foot goes first: it swings past the left one
         const Gaits::Contact& right = set.walking.contacts[1];
@@ -158,7 +158,7 @@ void WalkPlayer::blendGaits() {
     findWhole(set.standing->joints(), _joints.data(), _whole);
 }
 
-void WalkPlayer::move(const osg::Matrixd& place, double dt, const double* speed) {
+void WalkPlayer::move(const glm::dmat4& place, double dt, const double* speed) {
     const double way = measureWay(place);
     measureSpeed(way, dt);
     if (speed) {

@@ -6,8 +6,6 @@
 #include <osgSkinMotion/ClipPlayer>
 #include <osgSkinMotion/Gaits>
 
-#include <osg/Matrixd>
-#include <osg/Vec3d>
 #include <osg/ref_ptr>
 
 #include <algorithm>
@@ -16,12 +14,6 @@
 #include <vector>
 
 namespace osgSkin {
-
-/// From 0 to 1 without a jerk.
-inline double smooth(double share) {
-    const double x = std::clamp(share, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
 
 /// At most a step nearer.
 inline double towards(double from, double to, double most) {
@@ -38,7 +30,7 @@ public:
     /// \param place from walker space to the space of the ground; not singular
     /// \param dt seconds since the last call
     /// \param speed along the heading; null: as the places say
-    void move(const osg::Matrixd& place, double dt, const double* speed = nullptr);
+    void move(const glm::dmat4& place, double dt, const double* speed = nullptr);
 
     /// Stands where it is, as if it had never moved.
     void stand();
@@ -65,19 +57,19 @@ private:
 
     struct Foot {
         bool isPlanted = true;
-        bool isPlaced = false;  ///< `spot` and `heading` are known
-        SolePoint pivot = Ball; ///< about which it turns and rolls
-        osg::Vec3d spot;        ///< where the pivot stands, in the space of the ground
-        osg::Vec3d heading;     ///< of the figure when it was planted, in the space of the ground
-        osg::Vec3d offset;      ///< from the clips' place of the pivot to its own
-        double turn = 0.0;      ///< from the clips' direction to its own, about Z
-        double lift = 0.0;      ///< over the clips' height
-        double step = -1.0;     ///< share of a step on the spot; below 0: none
-        osg::Vec3d stepOffset;  ///< at the step's start
+        bool isPlaced = false;   ///< `spot` and `heading` are known
+        SolePoint pivot = Ball;  ///< about which it turns and rolls
+        glm::dvec3 spot{0.0};    ///< where the pivot stands, in the space of the ground
+        glm::dvec3 heading{0.0}; ///< of the figure when it was planted, in the space of the ground
+        glm::dvec3 offset{0.0};  ///< from the clips' place of the pivot to its own
+        double turn = 0.0;       ///< from the clips' direction to its own, about Z
+        double lift = 0.0;       ///< over the clips' height
+        double step = -1.0;      ///< share of a step on the spot; below 0: none
+        glm::dvec3 stepOffset{0.0}; ///< at the step's start
         double stepTurn = 0.0;
     };
 
-    double measureWay(const osg::Matrixd& place);
+    double measureWay(const glm::dmat4& place);
     void measureSpeed(double way, double dt);
     void chooseGait(double dt);
     void advancePhase(double way);
@@ -87,11 +79,11 @@ private:
     void rollOnto(Foot& foot, std::size_t side, SolePoint point);
     void stepOnTheSpot(double dt);
     void bendLegs();
-    void lowerHips(const std::array<osg::Vec3d, 2>& targets);
-    osg::Vec3d soleOf(std::size_t side, SolePoint point) const;
+    void lowerHips(const std::array<glm::dvec3, 2>& targets);
+    glm::dvec3 soleOf(std::size_t side, SolePoint point) const;
     double heightOf(std::size_t side) const;
     SolePoint pivotOf(std::size_t side, SolePoint now) const;
-    osg::Vec3d jointOf(std::size_t joint) const;
+    glm::dvec3 jointOf(std::size_t joint) const;
     void rotateJoint(std::size_t joint, const glm::dquat& world);
     void findLeg(std::size_t first, std::size_t last);
     double legLength(const Gaits::Leg& leg) const;
@@ -99,15 +91,16 @@ private:
     bool isStopped() const;
 
     const osg::ref_ptr<const Gaits> _gaits;
-    const osg::Vec3d _forward;  ///< in which it looks
-    const glm::dquat _toWalker; ///< the rotation of the gaits' toWalker
+    const glm::dmat4 _toWalker; ///< from rest space
+    const glm::dquat _fromRest; ///< its rotation
+    const glm::dvec3 _forward;  ///< in which it looks
     double _unit = 1.0;         ///< walker units for one of rest space
     /// The height of the standing soles.
     double _floor = std::numeric_limits<double>::infinity();
     std::array<double, 2> _radius{};  ///< of the balls of the feet: their heights above the soles
     double _height = 0.0, _leg = 0.0; ///< of the hips above the floor; from hip to ankle
 
-    osg::Matrixd _place;
+    glm::dmat4 _place{1.0};
     bool _isPlaced = false;
     double _pace = 0.0;      ///< along the ground, smoothed, whatever the direction
     double _direction = 1.0; ///< -1 where it goes backwards

@@ -169,7 +169,7 @@ void Walker::setMotion(const osg::Vec3d& position, double heading, double speed,
         osg::Matrixd::rotate(heading - _gaits->get().facing, osg::Vec3d(0, 0, 1)) *
         osg::Matrixd::translate(position);
     _walking->player->breathe(dt);
-    _walking->player->move(place, dt, &speed);
+    _walking->player->move(toGlm(place), dt, &speed);
     _walking->player->pose();
 }
 
@@ -223,7 +223,7 @@ void Walker::follow(const osg::NodeVisitor& nv) {
     walking.time = time;
     walking.isFollowing = true;
     if (!isMoved && (dt == 0.0 || walking.player->isStill())) return;
-    walking.player->move(place, dt);
+    walking.player->move(toGlm(place), dt);
     walking.player->pose();
     dirtyBound();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "names/BodyParts.h"
 #include "retarget/MotionSteps.h"
+#include "retarget/PlantedFoot.h"
 #include "retarget/RetargetTarget.h"
 
 #include <glm/geometric.hpp>
@@ -16,26 +17,16 @@
 namespace osgSkin {
 namespace {
 
-/// Samples first to last, both included, in which a foot is planted.
-struct FootContact {
-    std::size_t first, last;
-};
-
-constexpr double kLow = 0.05;           // leg lengths
-constexpr double kSlow = 0.3;           // leg lengths a second
 constexpr double kHalfWindow = 1 / 60.; // seconds; averages jitter out of the speed
 constexpr double kShortest = 0.1;       // seconds
 
-/// The height of the floor below one of the actor's feet: the foot is lower in a twentieth of the
-/// samples.
+/// The height of the floor below one of the actor's feet.
 /// \param positions of the foot, +y up, [frame]
 double standingHeight(const std::vector<glm::dvec3>& positions) {
     std::vector<double> heights;
     heights.reserve(positions.size());
     for (const glm::dvec3& position : positions) heights.push_back(position.y);
-    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
-    std::nth_element(heights.begin(), low, heights.end());
-    return *low;
+    return floorBelow(heights);
 }
 
 /// Where a foot is planted, as FootSkate says.
@@ -43,27 +34,26 @@ double standingHeight(const std::vector<glm::dvec3>& positions) {
 /// \param frameTime seconds between samples
 /// \param floor the height that feet stand on
 /// \param leg length of the actor's leg
-std::vector<FootContact> findFootContacts(const std::vector<glm::dvec3>& positions,
-                                          double frameTime, double floor, double leg) {
+std::vector<SampleRun> findFootContacts(const std::vector<glm::dvec3>& positions, double frameTime,
+                                        double floor, double leg) {
     const std::size_t end = positions.size();
     const auto reach = static_cast<std::size_t>(
         std::clamp(std::round(kHalfWindow / frameTime), 1.0, static_cast<double>(end)));
-    const auto isPlanted = [&](std::size_t f) {
-        if (positions[f].y > floor + kLow * leg) return false;
+    std::vector<SampleRun> runs = contactRuns(end, false, [&](std::size_t f) {
         const std::size_t before = f - std::min(f, reach);
         const std::size_t after = std::min(f + reach, end - 1);
         const double seconds = static_cast<double>(after - before) * frameTime;
-        return glm::distance(positions[before], positions[after]) <= kSlow * leg * seconds;
-    };
-    std::vector<FootContact> result;
-    for (std::size_t f = 0; f < end; ++f) {
-        if (!isPlanted(f)) continue;
-        const std::size_t first = f;
-        while (f + 1 < end && isPlanted(f + 1)) ++f;
-        if (static_cast<double>(f - first) * frameTime >= kShortest * (1.0 - 1e-9))
-            result.push_back({first, f});
-    }
-    return result;
+        const double moved = glm::distance(positions[before], positions[after]) / leg;
+        return kMotionContact.isPlanted((positions[f].y - floor) / leg,
+                                        seconds > 0.0 ? moved / seconds : 0.0);
+    });
+    runs.erase(std::remove_if(runs.begin(), runs.end(),
+                              [&](const SampleRun& run) {
+                                  return static_cast<double>(run.count - 1) * frameTime <
+                                         kShortest * (1.0 - 1e-9);
+                              }),
+               runs.end());
+    return runs;
 }
 
 } // namespace
@@ -114,14 +104,12 @@ double legLength(const SkeletonTree& tree, const BodyParts& parts, int ankle) {
     return length;
 }
 
-/// Largest distance along the floor from the position at the contact's start.
-double sliding(const std::vector<glm::dvec3>& positions, const FootContact& contact) {
-    double result = 0.0;
-    for (std::size_t f = contact.first; f <= contact.last; ++f) {
-        const glm::dvec3 moved = positions[f] - positions[contact.first];
-        result = std::max(result, std::hypot(moved.x, moved.z));
-    }
-    return result;
+/// How far a foot slides on the floor in a contact.
+double sliding(const std::vector<glm::dvec3>& positions, const SampleRun& contact) {
+    return slideOf(contact.count, [&](std::size_t k) {
+        const glm::dvec3& position = positions[contact.first + k];
+        return glm::dvec3(position.x, 0.0, position.z);
+    });
 }
 
 } // namespace
@@ -163,7 +151,7 @@ std::vector<FootSkate> MeasureFeet::finish(double frameTime, double scale) const
         record.rigJoint = _body.rig.joint(foot.rigJoint).name;
         record.motionJoint = _body.motion.joint(foot.motionJoint).name;
         record.leg = foot.rigLeg;
-        for (const FootContact& contact :
+        for (const SampleRun& contact :
              findFootContacts(foot.motion, frameTime, floor, foot.motionLeg)) {
             const double rig = sliding(foot.rig, contact);
             const double actor = scale * sliding(foot.motion, contact);
@@ -174,7 +162,7 @@ std::vector<FootSkate> MeasureFeet::finish(double frameTime, double scale) const
             record.actorWorst = std::max(record.actorWorst, actor);
             record.mean += rig;
             record.actorMean += actor;
-            record.frames += contact.last - contact.first + 1;
+            record.frames += contact.count;
         }
         if (record.contacts > 0) {
             record.mean /= static_cast<double>(record.contacts);
