@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files of osgSkin 0.3 and older are refused by the version, which they lack.
+// Files of another version are refused; those of osgSkin 0.3 and older have none.
 #include "FileVersion.h"
 
 #include <osgDB/InputStream>
@@ -8,17 +8,11 @@
 
 #include <string>
 
-void refuseFile(osgDB::InputStream& is) {
-    is.throwException("osgSkin: written by osgSkin 0.3 or older, or by a newer one; make the file "
-                      "again from its source, for example with osgconv character.skin "
-                      "character.osgb");
-}
-
 namespace {
 
 /// To be increased with every change of a format. Binary files of osgSkin 0.3 have a 0 or a 1 in
 /// the first byte.
-constexpr unsigned int kFileVersion = 4;
+constexpr unsigned int kFileVersion = 5;
 
 class FileVersion : public osgDB::BaseSerializer {
 public:
@@ -29,7 +23,10 @@ public:
     bool read(osgDB::InputStream& is, osg::Object&) override {
         unsigned int version = 0;
         if (is.isBinary() || is.matchString(_name)) is >> version;
-        if (!is.getException() && version != kFileVersion) refuseFile(is);
+        if (!is.getException() && version != kFileVersion)
+            is.throwException("osgSkin: written by another version of osgSkin; make the file again "
+                              "from its source, for example with osgconv character.skin "
+                              "character.osgb");
         return !is.getException();
     }
 

@@ -319,7 +319,6 @@ std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const SkinChoice&
         Subject subject = makeSubject(body, files.ratios);
         if (!subject.options) return subject; // bound by weights
         subject.options->shapes = shapes;
-        subject.options->cacheFolder = choice.cacheFolder;
         subject.binding =
             osgSkin::bind(subject.mesh, subject.rig, *subject.options, &subject.report);
         subject.model = modelOf(subject);

@@ -22,9 +22,8 @@ struct MeasuredSkin {
 
 /// Selects the skins to measure.
 struct SkinChoice {
-    bool elastic = false;    ///< also measure elastic shapes, which take minutes
-    std::string cacheFolder; ///< of elastic shapes; empty: none
-    std::string heat;        ///< a file of heat weights; empty or missing: none
+    bool elastic = false; ///< also measure elastic shapes, which take minutes
+    std::string heat;     ///< a file of heat weights; empty or missing: none
 };
 
 /// LBS and DQS with painted weights and with heat weights; ours without shapes (the paper's

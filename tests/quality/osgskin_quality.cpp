@@ -64,7 +64,6 @@ void define(example::CommandLine& line, Options& options) {
     line.add("--fitted-joints", options.fittedJoints,
              "people's joints where fitSkeleton() puts them, not where their bodies turn")
         .needs(people);
-    line.add("--cache", options.skins.cacheFolder, "a folder that keeps elastic shapes");
 }
 
 std::vector<SubjectFiles> subjects(const Options& options) {

@@ -28,7 +28,6 @@ struct Options {
     std::vector<std::string> bodies = kShapes;
     std::string folder = ".";
     std::string shapes = "fast";
-    std::string cacheFolder;
 };
 
 /// From the body's space, +y up and facing +z, to the pictures', +z up and facing -y.
@@ -91,7 +90,6 @@ void drawSheet(const std::string& shape, const Options& options) {
     if (options.shapes != "fast") {
         using Shapes = osgSkin::BindOptions::Shapes;
         subject.options->shapes = options.shapes == "none" ? Shapes::None : Shapes::Elastic;
-        subject.options->cacheFolder = options.cacheFolder;
         subject.binding =
             osgSkin::bind(subject.mesh, subject.rig, *subject.options, &subject.report);
         subject.model = modelOf(subject);
@@ -118,7 +116,6 @@ int main(int argc, char** argv) {
     line.add("--shapes", options.shapes, "ours with these")
         .oneOf({"none", "fast", "elastic"})
         .showDefault();
-    line.add("--cache", options.cacheFolder, "a folder that keeps elastic shapes");
     return line.run(argc, argv, [&] {
         line.parse(argc, argv);
         for (const std::string& shape : options.bodies) drawSheet(shape, options);

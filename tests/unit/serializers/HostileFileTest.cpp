@@ -66,5 +66,16 @@ TEST_P(HostileFile, ReasonIsNamed) {
     EXPECT_NE(reason.find("after its parent"), std::string::npos) << reason;
 }
 
+TEST(HostileFiles, OfAnotherVersionIsRefused) {
+    std::string older = test::save(*test::makeScene(), "osgt");
+    const std::string name = "FileVersion ";
+    ASSERT_NE(older.find(name), std::string::npos);
+    older.replace(older.find(name) + name.size(), 1, "4");
+    std::string reason;
+    EXPECT_EQ(test::load(older, "osgt", &reason), nullptr);
+    EXPECT_NE(reason.find("another version"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("osgconv character.skin character.osgb"), std::string::npos) << reason;
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, HostileFile, testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& format) { return std::string(format.param); });

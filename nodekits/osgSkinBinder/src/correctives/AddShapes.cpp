@@ -15,10 +15,10 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
                const Progress& progress, Binding& binding, std::vector<std::string>& notes) {
     if (options.shapes != Shapes::None) {
         if (progress) progress({"shapes", 0.0});
-        binding.correctives = options.shapes == Shapes::Fast
-                                  ? makeFastShapes(skeleton, joints, mesh, binding)
-                                  : cachedElasticShapes(skeleton, joints, mesh, layers, options,
-                                                        progress, binding, notes);
+        binding.correctives =
+            options.shapes == Shapes::Fast
+                ? makeFastShapes(skeleton, joints, mesh, binding)
+                : makeElasticShapes(skeleton, joints, mesh, layers, binding, progress, notes);
         if (progress) progress({"shapes", 1.0});
     }
     if (options.muscles || !options.ownMuscles.empty())

@@ -27,15 +27,6 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
 /// \param options with shapes decided()
 double shareWithoutShapes(const BindOptions& options);
 
-/// Elastic shapes, from the cache in `options.cacheFolder` if they are there. Without a folder they
-/// are always computed.
-/// \param notes gets those of makeElasticShapes(), and a line if a file cannot be used or written
-Correctives cachedElasticShapes(const RestSkeleton& skeleton,
-                                const std::vector<PlannedJoint>& joints, const WeldedMesh& mesh,
-                                const SkinLayers* layers, const BindOptions& options,
-                                const Progress& progress, const Binding& binding,
-                                std::vector<std::string>& notes);
-
 /// Adds normals' correctives to a binding that has correctives and gradients: each joint is bent
 /// over its whole range, and the remaining error of the corrected skin's normals is fitted by the
 /// functions that the joint already has.

@@ -163,7 +163,6 @@ ConvertOptions convertOptionsOf(const LoadOptions& options) {
     if (options.method == Method::Paper) convert.bind.method = BindOptions::Method::Paper;
     convert.bind.rigid = options.rigid;
     convert.bind.shapes = options.shapes;
-    convert.bind.cacheFolder = cacheFolder();
     convert.bind.muscles = options.muscles.value_or(false);
     convert.bind.surfaceNormals = options.surfaceNormals;
     convert.showRegions = options.showRegions;

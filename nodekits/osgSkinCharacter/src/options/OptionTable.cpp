@@ -220,7 +220,7 @@ std::vector<Option> makeTable() {
         choice<std::optional<Shapes>, Shapes>(
             {"shapes", "fast; none with paper and weights",
              "what keeps bent limbs from swelling and from going through themselves; elastic takes "
-             "2 to 5 seconds, and is kept in the cache folder"},
+             "2 to 5 seconds at each load, which a saved character does not need"},
             &LoadOptions::shapes,
             {{"none", Shapes::None}, {"fast", Shapes::Fast}, {"elastic", Shapes::Elastic}}),
         onOff({"muscles", "off", "muscles of arms, legs, chest, shoulders and buttocks swell"},

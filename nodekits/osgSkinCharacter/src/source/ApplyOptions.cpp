@@ -22,28 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder in an environment variable; relative ones are ignored, as the specification says.
-fs::path folderFrom(const char* variable) {
-    const char* value = std::getenv(variable);
-    const fs::path folder = value == nullptr ? "" : value;
-    return folder.is_absolute() ? folder : fs::path();
-}
-
-} // namespace
-
-std::string cacheFolder() {
-    fs::path base = folderFrom("XDG_CACHE_HOME");
-    if (base.empty()) {
-        base = folderFrom("HOME");
-        if (!base.empty()) base /= ".cache";
-    }
-    if (base.empty()) base = folderFrom("LOCALAPPDATA"); // Windows
-    if (base.empty()) return {};
-    return (base / "osgSkin").string();
-}
-
-namespace {
-
 using Method = LoadOptions::Method;
 
 void applyMethod(CharacterSource& source, Method method) {
@@ -128,7 +106,6 @@ void applyOptions(CharacterSource& source, const LoadOptions& options) {
     source.bind.surfaceNormals = all.surfaceNormals;
     source.bind.muscles = all.muscles.value_or(false);
     if (options.muscles == false) source.bind.ownMuscles.clear();
-    source.bind.cacheFolder = cacheFolder();
     if (options.atRest) {
         source.animations.clear();
         source.motions.clear();

@@ -6,13 +6,7 @@
 
 #include <osgSkinCharacter/LoadOptions>
 
-#include <string>
-
 namespace osgSkin {
-
-/// The user's cache folder: osgSkin in XDG_CACHE_HOME, or in .cache of the home folder (XDG Base
-/// Directory Specification). Empty where neither is known.
-std::string cacheFolder();
 
 /// Applies the caller's options, which override the file's: binding and motions.
 ///
