@@ -345,6 +345,43 @@ void endWithinBones(const BinaryField& binary, std::size_t joint, bool onLimb,
     }
 }
 
+/// The field of a hand, a foot or a head, whose border is narrowed until the skin around the middle
+/// of the bone above stays rigid.
+std::vector<double> extremityBend(const SkinSmoother& smoother, const std::vector<double>& start,
+                                  const std::vector<std::uint32_t>& above, double width,
+                                  double cutOff) {
+    const double least = kNarrowest * width;
+    std::vector<double> field = fromBorder(smoother, start, width, cutOff);
+    for (int i = 0;
+         i < kTries && !above.empty() && narrow(width, least, meanOf(field, above), kNextRigidity);
+         ++i)
+        field = fromBorder(smoother, start, width, cutOff);
+    return field;
+}
+
+/// Spreads a limb's field, and narrows the widths until the skin around the middles of its own bone
+/// and of the one above stays rigid.
+std::vector<double> limbBend(const SkinSmoother& smoother, const std::vector<double>& start,
+                             const std::vector<double>& share, const std::vector<bool>& isHeld,
+                             const std::vector<std::uint32_t>& own,
+                             const std::vector<std::uint32_t>& above, double cutOff,
+                             Widths& widths) {
+    const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
+    std::vector<double> field;
+    for (int i = 0; i < kTries; ++i) {
+        field = spread(smoother, start, widths, share, isHeld, cutOff);
+        bool narrower = false;
+        if (!own.empty())
+            narrower =
+                narrow(widths.below, least.below, 1.0 - meanOf(field, own), 1.0 - kOwnRigidity);
+        if (!above.empty())
+            narrower =
+                narrow(widths.above, least.above, meanOf(field, above), kNextRigidity) || narrower;
+        if (!narrower) break;
+    }
+    return field;
+}
+
 /// A joint's bend field if the author gave no boundaries: its binary field
 /// (BinaryField::divided()), spread over the skin about as far as the limb is thick, and exactly 0
 /// and 1 beyond that.
@@ -376,19 +413,12 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     if (onLimb) previous = middleThird(binary, above);
     if (!planned.beyond.empty()) {
         const double border = planned.part == JointPart::Hand ? kAboveHand : kAboveBorder;
-        double width = border * options.smoothing * radius;
-        const double least = kNarrowest * width;
-        std::vector<double> field = fromBorder(smoother, start, width, options.cutOff);
-        for (int i = 0; i < kTries && !previous.empty() &&
-                        narrow(width, least, meanOf(field, previous), kNextRigidity);
-             ++i)
-            field = fromBorder(smoother, start, width, options.cutOff);
-        return field;
+        return extremityBend(smoother, start, previous, border * options.smoothing * radius,
+                             options.cutOff);
     }
     const bool elbowOrKnee = limb && onLimb && isElbowOrKnee(binary.joints, joint);
     Widths widths =
         firstWidths(binary.joints, joint, limb, onLimb, elbowOrKnee, radii, options.smoothing);
-    const Widths least = {kNarrowest * widths.above, kNarrowest * widths.below};
     const std::vector<bool> isHeld =
         planned.isCollarBone() ? armSkin(binary, planned.child, radii) : std::vector<bool>();
     std::vector<double> share;
@@ -398,18 +428,8 @@ std::vector<double> smoothBend(const BinaryField& binary, const SkinSmoother& sm
     const bool leavesTrunk = !share.empty();
     const bool atTrunk = binary.joints[above].isOfTrunk();
     if (atTrunk || elbowOrKnee) widenFarSkin(binary, radii, atTrunk, share);
-    std::vector<double> field;
-    for (int i = 0; i < kTries; ++i) {
-        field = spread(smoother, start, widths, share, isHeld, options.cutOff);
-        bool narrower = false;
-        if (!own.empty())
-            narrower =
-                narrow(widths.below, least.below, 1.0 - meanOf(field, own), 1.0 - kOwnRigidity);
-        if (!previous.empty())
-            narrower = narrow(widths.above, least.above, meanOf(field, previous), kNextRigidity) ||
-                       narrower;
-        if (!narrower) break;
-    }
+    std::vector<double> field =
+        limbBend(smoother, start, share, isHeld, own, previous, options.cutOff, widths);
     if (leavesTrunk) {
         const Widths wider = {kRoom * widths.above, kRoom * widths.below};
         const std::vector<bool> isFree =

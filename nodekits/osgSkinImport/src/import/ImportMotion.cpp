@@ -247,17 +247,10 @@ void dropStill(Motion& motion) {
     }
 }
 
-/// Samples an animation at equal steps, 30 a second or more, and at every key (see SampleGrid).
-/// Converts rotations to frames that are aligned with the world at rest, as Motion stores them.
-///
-/// The motion's root is that joint, or the one that rootMotionJoint() finds; other joints that
-/// move against their parents are in Motion::moves.
-/// \throw osgSkin::Error with `path` if no track has a key, the key times are invalid, or joints
-///        times frames are more than `maxSamples`.
-Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skeleton,
-                    std::size_t maxSamples, const std::string& path) {
-    const std::vector<const SourceTrack*> tracks = tracksOf(animation, skeleton);
-    const double rate = animation.ticksPerSecond;
+/// The times of samples for an animation's keys.
+/// \throw osgSkin::Error as sampleTracks()
+SampleGrid sampleTimes(const std::vector<const SourceTrack*>& tracks, double rate,
+                       std::size_t maxSamples, const std::string& path) {
     std::vector<double> times;
     bool any = false;
     for (const SourceTrack* track : tracks) {
@@ -276,7 +269,48 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
                            std::to_string(grid.samples()) + " frames of " +
                            std::to_string(tracks.size()) + " joints, expected at most " +
                            std::to_string(maxSamples) + " rotations (option maxSamples)");
+    return grid;
+}
 
+/// The joints of the carried skeleton that move against their parents: those that the animation
+/// moves, and those that another joint carries than in the file.
+std::vector<std::size_t> movingJoints(const RestSkeleton& rest, const RestSkeleton& reduced,
+                                      const std::vector<std::size_t>& joints,
+                                      const std::vector<bool>& moved) {
+    std::vector<std::size_t> moving;
+    for (std::size_t k = 1; k < joints.size(); ++k) {
+        const auto up = static_cast<std::size_t>(reduced.joints[k].parent);
+        const bool isCut = rest.joints[joints[k]].parent != static_cast<int>(joints[up]);
+        if (moved[joints[k]] || isCut) moving.push_back(k);
+    }
+    return moving;
+}
+
+/// The position of the motion's root in the scene, below the joints `above`; that at rest where
+/// nothing moves it.
+glm::dvec3 rootPosition(const std::vector<const SourceTrack*>& tracks,
+                        const SceneSkeleton& skeleton, const std::vector<std::size_t>& above,
+                        std::size_t root, const Moment& moment) {
+    if (root == 0 && (tracks[0] == nullptr || tracks[0]->positions.empty()))
+        return skeleton.rest.joints[0].centre;
+    glm::dmat4 place = skeleton.aboveRoot;
+    for (const std::size_t j : above) place *= localMatrix(tracks[j], *skeleton.nodes[j], moment);
+    return glm::dvec3(place *
+                      glm::dvec4(localPosition(tracks[root], *skeleton.nodes[root], moment), 1.0));
+}
+
+/// Samples an animation at equal steps, 30 a second or more, and at every key (see SampleGrid).
+/// Converts rotations to frames that are aligned with the world at rest, as Motion stores them.
+///
+/// The motion's root is that joint, or the one that rootMotionJoint() finds; other joints that
+/// move against their parents are in Motion::moves.
+/// \throw osgSkin::Error with `path` if no track has a key, the key times are invalid, or joints
+///        times frames are more than `maxSamples`.
+Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skeleton,
+                    std::size_t maxSamples, const std::string& path) {
+    const std::vector<const SourceTrack*> tracks = tracksOf(animation, skeleton);
+    const double rate = animation.ticksPerSecond;
+    const SampleGrid grid = sampleTimes(tracks, rate, maxSamples, path);
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
     const std::size_t root = rootMotionJoint(skeleton.rest, moved);
@@ -293,14 +327,8 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
                                       glm::determinant(glm::dmat3(skeleton.aboveRoot)) < 0.0};
     std::vector<ReflectedRotation> world(joints); // in the nodes' own frames
     std::vector<glm::dquat> aligned(joints);      // the same, as rotations from rest
-    std::vector<std::size_t> moving; // of the carried joints, with those that another carries
-    for (std::size_t k = 1; k < carried.joints.size(); ++k) {
-        const std::size_t j = carried.joints[k];
-        const int up = motion.skeleton.joints[k].parent;
-        const bool isCut = skeleton.rest.joints[j].parent !=
-                           static_cast<int>(carried.joints[static_cast<std::size_t>(up)]);
-        if (moved[j] || isCut) moving.push_back(k);
-    }
+    const std::vector<std::size_t> moving =
+        movingJoints(skeleton.rest, motion.skeleton, carried.joints, moved);
     std::vector<glm::dmat4> places(moving.empty() ? 0 : joints); // of the nodes, in the scene
     for (std::size_t f = 0; f < motion.frames; ++f) {
         const Moment moment{grid.time(f) * rate, 0.5001 * grid.step() * rate};
@@ -331,16 +359,7 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
                     ? own
                     : glm::conjugate(aligned[carried.joints[static_cast<std::size_t>(up)]]) * own));
         }
-        glm::dvec3 position = skeleton.rest.joints[0].centre;
-        if (root > 0 || (tracks[0] != nullptr && !tracks[0]->positions.empty())) {
-            glm::dmat4 above = skeleton.aboveRoot;
-            for (const std::size_t j : carried.above)
-                above *= localMatrix(tracks[j], *skeleton.nodes[j], moment);
-            position = glm::dvec3(
-                above *
-                glm::dvec4(localPosition(tracks[root], *skeleton.nodes[root], moment), 1.0));
-        }
-        motion.rootPositions.push_back(position);
+        motion.rootPositions.push_back(rootPosition(tracks, skeleton, carried.above, root, moment));
     }
     dropStill(motion);
     return motion;

@@ -54,28 +54,33 @@ struct Range {
     double low, high;
 };
 
-/// The smallest box of some of the points: those whose loss shrinks it the most are left out, one
-/// or a few at a time.
-///
-/// \param local points
-/// \param lost how many may be left out
-std::array<Range, 3> smallBox(const Points& local, std::size_t lost) {
-    const std::size_t count = local.size();
-    std::array<std::vector<std::uint32_t>, 6> ends; // outermost first, as many as may matter
+/// For each face of a box around the points, low and high by axis: its outermost `kept` points,
+/// from outside.
+std::array<std::vector<std::uint32_t>, 6> outermost(const Points& local, std::size_t kept) {
+    std::array<std::vector<std::uint32_t>, 6> ends;
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double sign = face % 2 ? -1.0 : 1.0;
         std::vector<std::uint32_t>& order = ends[std::size_t(face)];
-        order.resize(count);
-        for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(i);
-        const std::size_t kept = std::min(count, lost + 1);
+        order.resize(local.size());
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
         std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(kept), order.end(),
                           [&](std::uint32_t a, std::uint32_t b) {
                               return sign * local[a][axis] < sign * local[b][axis];
                           });
         order.resize(kept);
     }
-    std::vector<bool> isOut(count, false);
+    return ends;
+}
+
+/// The smallest box of some of the points: those whose loss shrinks it the most are left out, one
+/// or a few at a time.
+///
+/// \param local points
+/// \param lost how many may be left out
+std::array<Range, 3> smallBox(const Points& local, std::size_t lost) {
+    const auto ends = outermost(local, std::min(local.size(), lost + 1)); // no others can matter
+    std::vector<bool> isOut(local.size(), false);
     std::array<std::size_t, 6> first{}; // in `ends`, of those that are in
     const auto coordinate = [&](int face, std::size_t at) {
         return local[ends[std::size_t(face)][at]][face / 2];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/body/SolidGrid.h"
 
+#include "mesh/DisjointSets.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -205,6 +207,36 @@ struct Crossing {
     }
 };
 
+/// Where the growing fronts of two shells met, after so many steps, in two neighbouring cubes.
+struct Meeting {
+    int steps;
+    std::size_t a, b;
+};
+
+/// By pairs of shells; each in the order of steps.
+using Meetings = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Meeting>>;
+
+struct Pair {
+    int steps;
+    std::size_t width; ///< number of meetings after nearly as few steps
+    std::pair<std::uint32_t, std::uint32_t> shells;
+};
+
+/// The pairs of shells, those with the shortest paths first, then those with the widest fronts.
+std::vector<Pair> nearestFirst(const Meetings& meetings) {
+    std::vector<Pair> pairs;
+    for (const auto& [shells, all] : meetings) {
+        const int least = all.front().steps;
+        const auto width = std::count_if(
+            all.begin(), all.end(), [least](const Meeting& m) { return m.steps <= least + kSlit; });
+        pairs.push_back({least, static_cast<std::size_t>(width), shells});
+    }
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+        return a.steps != b.steps ? a.steps < b.steps : a.width > b.width;
+    });
+    return pairs;
+}
+
 } // namespace
 
 std::vector<ClosedShell> closedShells(const WeldedMesh& mesh, const std::vector<Triangle>& given) {
@@ -363,13 +395,10 @@ void SolidGrid::addBall(std::size_t at, int radius) {
             }
 }
 
-int SolidGrid::join() {
-    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-    // All shells grow at once, first into pockets. Where two fronts meet, there is a path between
-    // them.
-    std::vector<std::uint32_t> shell = _shellOf;
-    std::vector<std::size_t> from(_solid.size(), kNone), front, next;
-    std::vector<std::size_t> sizes(_shells + 1, 0);
+/// Lets all shells grow into solid cubes that are of none, which were pockets.
+/// \return the cubes of all shells
+std::vector<std::size_t> SolidGrid::fillShells(std::vector<std::uint32_t>& shell) const {
+    std::vector<std::size_t> front, next;
     for (std::size_t i = 0; i < shell.size(); ++i)
         if (shell[i] != 0) front.push_back(i);
     for (std::vector<std::size_t> open = front; !open.empty(); open.swap(next)) {
@@ -382,13 +411,32 @@ int SolidGrid::join() {
                 front.push_back(n);
             });
     }
-    for (const std::size_t i : front) ++sizes[shell[i]];
-    const std::vector<std::uint32_t> own = shell;
-    struct Meeting {
-        int steps;
-        std::size_t a, b;
-    };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Meeting>> meetings;
+    return front;
+}
+
+/// Empties the cubes of small shells that nothing joins to the largest one.
+///
+/// \param shell of each cube, one number for all shells that are joined; 0: none
+/// \param sizes of the shells, in cubes
+void SolidGrid::dropCrumbs(const std::vector<std::uint32_t>& shell,
+                           const std::vector<std::size_t>& sizes) {
+    const std::size_t largest =
+        static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    const double all =
+        static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::size_t(0)));
+    for (std::size_t i = 0; i < _solid.size(); ++i)
+        if (shell[i] != 0 && shell[i] != largest &&
+            static_cast<double>(sizes[shell[i]]) < kCrumb * all)
+            _solid[i] = 0;
+}
+
+int SolidGrid::join() {
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    // All shells grow at once. Where two fronts meet, there is a path between them.
+    std::vector<std::uint32_t> shell = _shellOf;
+    std::vector<std::size_t> from(_solid.size(), kNone), front = fillShells(shell), next;
+    std::vector<std::uint32_t> own = shell;
+    Meetings meetings;
     for (int step = 0; step <= kReach; ++step) {
         next.clear();
         for (const std::size_t i : front)
@@ -404,53 +452,23 @@ int SolidGrid::join() {
             });
         if (step > 0) front.swap(next);
     }
-    struct Pair {
-        int steps;
-        std::size_t width; ///< number of meetings after nearly as few steps
-        std::pair<std::uint32_t, std::uint32_t> shells;
-    };
-    std::vector<Pair> pairs;
-    for (const auto& [shells, all] : meetings) {
-        const int least = all.front().steps;
-        const auto width = std::count_if(
-            all.begin(), all.end(), [least](const Meeting& m) { return m.steps <= least + kSlit; });
-        pairs.push_back({least, static_cast<std::size_t>(width), shells});
-    }
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-        return a.steps != b.steps ? a.steps < b.steps : a.width > b.width;
-    });
-    std::vector<std::uint32_t> set(sizes.size());
-    std::iota(set.begin(), set.end(), 0u);
-    const auto root = [&set](std::uint32_t p) {
-        while (set[p] != p) p = set[p] = set[set[p]];
-        return p;
-    };
+    DisjointSets joined(_shells + 1);
     int bridged = 0;
-    for (const Pair& pair : pairs) {
-        const std::uint32_t a = root(pair.shells.first), b = root(pair.shells.second);
-        if (a == b) continue;
-        set[a] = b;
-        sizes[b] += sizes[a];
+    for (const Pair& pair : nearestFirst(meetings)) {
+        if (joined.find(pair.shells.first) == joined.find(pair.shells.second)) continue;
+        joined.join(pair.shells.first, pair.shells.second);
         bridged += pair.steps > 0;
         for (const Meeting& meeting : meetings[pair.shells])
             for (std::size_t at : {meeting.a, meeting.b})
                 for (; meeting.steps <= pair.steps + kSlit && at != kNone; at = from[at])
                     addBall(at, 1);
     }
-    std::uint32_t largest =
-        root(own[static_cast<std::size_t>(std::max_element(own.begin(), own.end()) - own.begin())]);
-    std::size_t all = 0;
-    for (std::uint32_t p = 1; p < sizes.size(); ++p) {
-        if (root(p) != p) continue;
-        all += sizes[p];
-        if (sizes[p] > sizes[largest]) largest = p;
+    std::vector<std::size_t> sizes(_shells + 1, 0);
+    for (std::uint32_t& of : own) {
+        of = static_cast<std::uint32_t>(joined.find(of));
+        if (of != 0) ++sizes[of];
     }
-    for (std::size_t i = 0; i < _solid.size(); ++i) {
-        if (own[i] == 0) continue;
-        const std::uint32_t p = root(own[i]);
-        if (p != largest && static_cast<double>(sizes[p]) < kCrumb * static_cast<double>(all))
-            _solid[i] = 0;
-    }
+    dropCrumbs(own, sizes);
     return bridged;
 }
 

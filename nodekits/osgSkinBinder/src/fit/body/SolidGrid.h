@@ -62,6 +62,8 @@ private:
     void forEachNeighbour(std::size_t at, const Use& use) const;
     std::vector<std::uint8_t> distances(int most) const;
     void addBall(std::size_t at, int radius);
+    std::vector<std::size_t> fillShells(std::vector<std::uint32_t>& shell) const;
+    void dropCrumbs(const std::vector<std::uint32_t>& shell, const std::vector<std::size_t>& sizes);
 
     glm::dvec3 _origin;
     double _edge;
