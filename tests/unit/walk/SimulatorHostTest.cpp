@@ -7,6 +7,8 @@
 #include <osg/NodeCallback>
 #include <osg/PositionAttitudeTransform>
 #include <osgGA/EventVisitor>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
 
 #include <gtest/gtest.h>
 
@@ -65,6 +67,45 @@ TEST(SimulatorHost, WalkerWalksWhereUpdatesDoNotReachIt) {
     }
     EXPECT_NEAR(walker->speed(), 1.5, 0.05);
     EXPECT_GT(walker->phase(), 0.0);
+}
+
+/// A program that calls osgViewer's renderingTraversals() alone.
+TEST(SimulatorHost, WalkerThatIsOnlyDrawnWarnsOnce) {
+    const auto draw = [](bool isTold, bool isUpdated) {
+        walking::Walk walk;
+        const osg::ref_ptr<osgUtil::CullVisitor> cull = new osgUtil::CullVisitor;
+        const osg::ref_ptr<osgUtil::StateGraph> states = new osgUtil::StateGraph;
+        const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+        const osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 64, 64);
+        for (int i = 0; i < 20; ++i) {
+            const osg::Vec3d place(0.02 * i, 0, 0);
+            if (isUpdated) walk.show(place, 0.0, 1.0 / 60.0);
+            walk.transform->setMatrix(osg::Matrixd::translate(place));
+            if (isTold) walk.walker->setMotion(place, 0.0, 1.2, 1.0 / 60.0);
+            const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+            stamp->setFrameNumber(unsigned(i));
+            cull->reset();
+            cull->setFrameStamp(stamp);
+            cull->setStateGraph(states);
+            cull->setRenderStage(stage);
+            cull->pushViewport(viewport);
+            cull->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::perspective(60, 1, 1, 90)));
+            cull->pushModelViewMatrix(new osg::RefMatrix, osg::Transform::ABSOLUTE_RF);
+            walk.transform->accept(*cull);
+            cull->popModelViewMatrix();
+            cull->popProjectionMatrix();
+            cull->popViewport();
+        }
+    };
+    const test::Notices notices;
+    draw(true, false);
+    draw(false, true);
+    EXPECT_EQ(notices.text(), "");
+    draw(false, false);
+    EXPECT_TRUE(notices.say("does not walk without update or event traversals: expected "
+                            "osgViewer's frame() or updateTraversal(), or setMotion()"))
+        << notices.text();
+    EXPECT_EQ(notices.lines(), 1u) << notices.text();
 }
 
 TEST(SimulatorHost, WallTimeDoesNotMatterWithAStep) {

@@ -18,6 +18,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -83,6 +85,11 @@ struct Walker::Walking {
     bool isFollowing = false; ///< `place`, `frame` and `time` are known
     bool isTold = false;      ///< by setMotion()
     bool isShared = false;    ///< by several transforms
+
+    // Of frames without an update or event traversal; several threads may cull.
+    std::mutex mutex;
+    std::optional<osg::Matrixd> drawn; ///< where it was first
+    bool isWarned = false;
 };
 
 Walker::Walker() {
@@ -228,8 +235,23 @@ void Walker::follow(const osg::NodeVisitor& nv) {
     dirtyBound();
 }
 
+/// Warns where transforms carry the figure along and only draws come here.
+void Walker::checkDrawn(const osg::NodeVisitor& nv) {
+    Walking& walking = *_walking;
+    if (walking.isFollowing || walking.isTold || !nv.getFrameStamp()) return;
+    const osg::Matrixd place = placeOf(nv);
+    const std::lock_guard<std::mutex> lock(walking.mutex);
+    if (!walking.drawn) walking.drawn = place;
+    if (place == *walking.drawn || std::exchange(walking.isWarned, true)) return;
+    OSG_WARN << "osgSkin: walker \"" << getName()
+             << "\" is moved and drawn, but does not walk without update or event traversals: "
+                "expected osgViewer's frame() or updateTraversal(), or setMotion()"
+             << std::endl;
+}
+
 void Walker::traverse(osg::NodeVisitor& nv) {
     const bool isUpdate = nv.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
+    if (_walking && nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) checkDrawn(nv);
     if (_walking && (isUpdate || nv.getVisitorType() == osg::NodeVisitor::EVENT_VISITOR))
         follow(nv);
     osg::Group::traverse(nv);
