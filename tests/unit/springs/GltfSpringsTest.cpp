@@ -148,6 +148,32 @@ TEST(GltfSprings, ReadsVrm1) {
     EXPECT_NEAR(sphere.radius, 0.4, kTolerance);
 }
 
+TEST(GltfSprings, ReadsExtendedColliders) {
+    HairColumn hair;
+    hair.addSecond();
+    json& colliders = hair.json["extensions"]["VRMC_springBone"]["colliders"];
+    const auto extend = [](json& collider, const json& shape) {
+        collider["shape"] = {{"sphere", {{"offset", {0, -10000, 0}}, {"radius", 0}}}};
+        collider["extensions"]["VRMC_springBone_extended_collider"] = {{"specVersion", "1.0"},
+                                                                       {"shape", shape}};
+    };
+    extend(colliders[0], {{"plane", {{"offset", {0, 0.5, 0}}, {"normal", {0, 0, 2}}}}});
+    extend(colliders[1],
+           {{"capsule",
+             {{"offset", {0, 0, 0}}, {"radius", 0.1}, {"tail", {0, 0, 1}}, {"inside", true}}}});
+    const test::Notices notices;
+    const SpringSettings springs = importSprings(hair.save("extended.vrm"));
+    EXPECT_EQ(notices.text(), "");
+    const SpringSettings::Collider& capsule = springs.colliders.at(1);
+    EXPECT_NEAR(capsule.radius, -0.1, kTolerance);
+    expectNear(capsule.end - capsule.start, {0, 0, 1});
+    const SpringSettings::Collider& plane = springs.colliders.at(0);
+    EXPECT_EQ(plane.joint, "base");
+    for (const glm::dvec3& on : {glm::dvec3(0, 0.5, 0), {0.5, 0, 0}, {-0.3, 1, 0}})
+        EXPECT_NEAR(glm::length(on - plane.start), plane.radius, 1e-5);
+    EXPECT_GT(glm::length(glm::dvec3(0, 0, 1) - plane.start), plane.radius + 0.9);
+}
+
 TEST(GltfSprings, AreNoneInOtherFiles) {
     EXPECT_TRUE(importSprings(HairColumn().save("bald.vrm")).chains.empty());
     EXPECT_TRUE(importSprings("missing.obj").chains.empty());

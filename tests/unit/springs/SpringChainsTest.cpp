@@ -352,6 +352,64 @@ TEST(SpringChains, NeverCrossesColliders) {
     }
 }
 
+/// As in skirts whose first joint is at the next one: rounding would turn it by any angle.
+TEST(SpringChains, CarriesTinyBonesAlong) {
+    for (const double length : {1e-7, 1e-6, 1e-5}) {
+        SpringChains chains(joints(0.7, 0.4, 0.2));
+        std::vector<dvec3> before(kBones);
+        for (int i = 0; i < 480; ++i) {
+            SpringChains::Frame frame = headAt(i / 240.0);
+            SpringChains::Bone& tiny = frame.bones[0];
+            const dvec3 way = (length / kLength - 1.0) * (tiny.tip - tiny.head);
+            tiny.tip += way;
+            for (std::size_t j = 1; j < kBones; ++j) {
+                frame.bones[j].head += way;
+                frame.bones[j].tip += way;
+            }
+            ASSERT_TRUE(chains.move(frame, i == 0 ? 0.0 : 1.0 / 240.0));
+            EXPECT_EQ(chains.tips()[0], tiny.head) << "does not turn";
+            for (std::size_t j = 1; j < kBones; ++j) {
+                const dvec3 bone = chains.tips()[j] - chains.tips()[j - 1];
+                EXPECT_NEAR(glm::length(bone), kLength, 1e-6 + length);
+                if (i > 0) {
+                    EXPECT_LT(degreesBetween(bone, before[j]), 10.0) << i << ' ' << j;
+                }
+                before[j] = bone;
+            }
+        }
+    }
+}
+
+/// A tail that is shaken in a ball, and one over a floor.
+TEST(SpringChains, StaysInsideOfCollidersAndOverPlanes) {
+    constexpr double kRadius = 0.02, kBall = 0.3, kPlane = 1e5;
+    for (const double rate : {15.0, 60.0, 240.0}) {
+        auto made = joints(0.1, 0.3, 0.5, kRadius);
+        for (SpringChains::Joint& joint : made) joint.colliders = {0, 1};
+        SpringChains chains(made);
+        double deepest = 0.0;
+        int touches = 0;
+        for (int i = 0; i < int(10.0 * rate); ++i) {
+            SpringChains::Frame frame;
+            const dvec3 top(0.2 * std::sin(5.0 * i / rate), 0.15, 0.1 * std::sin(7.0 * i / rate));
+            for (std::size_t j = 0; j < kBones; ++j) {
+                const dvec3 head = top + dvec3(kLength * double(j), 0, 0);
+                frame.bones.push_back({head, head + dvec3(kLength, 0, 0), dquat(1, 0, 0, 0)});
+            }
+            const dvec3 below(0, -kPlane, 0);
+            frame.colliders = {{dvec3(0), dvec3(0), -kBall}, {below, below, kPlane}};
+            ASSERT_TRUE(chains.move(frame, 1.0 / rate));
+            for (const dvec3& tip : chains.tips()) {
+                deepest =
+                    std::max({deepest, glm::length(tip) - (kBall - kRadius), kRadius - tip.y});
+                touches += tip.y < kRadius + 1e-3;
+            }
+        }
+        EXPECT_LT(deepest, 2e-5) << rate;
+        EXPECT_GT(touches, int(rate)) << rate;
+    }
+}
+
 TEST(SpringChains, PointsAwayFromAColliderAroundItsJoint) {
     auto made = joints(1.0, 0.4, 1.0, 0.0);
     made.resize(1);

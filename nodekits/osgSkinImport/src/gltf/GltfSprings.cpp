@@ -15,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kLastLength = 0.07; ///< metres, of last bones in VRM 0
+constexpr double kPlaneRadius = 1e5; ///< metres; a metre beside a point it is 5 micrometres off
 
 /// A list of three numbers; `otherwise` if it is none.
 glm::dvec3 listOf(const json& object, const char* name, const glm::dvec3& otherwise) {
@@ -91,13 +92,24 @@ private:
     void readSecond(const json& springs) {
         std::vector<std::size_t> known; // indices of the file's colliders
         for (const json& collider : memberOf(springs, "colliders")) {
-            const json& shape = memberOf(collider, "shape");
-            const json& capsule = memberOf(shape, "capsule");
+            // For programs that do not know the extension, the collider's own shape is far away.
+            const json& extended = memberOf(
+                memberOf(memberOf(collider, "extensions"), "VRMC_springBone_extended_collider"),
+                "shape");
+            const json& shape = extended.empty() ? memberOf(collider, "shape") : extended;
+            const json &capsule = memberOf(shape, "capsule"), &plane = memberOf(shape, "plane");
             const json& round = capsule.empty() ? memberOf(shape, "sphere") : capsule;
-            if (round.empty()) ++_lost;
-            const glm::dvec3 start = listOf(round, "offset", glm::dvec3(0.0));
-            addCollider(round.empty() ? -1 : nodeOf(collider), start,
-                        listOf(capsule, "tail", start), numberOf(round, "radius", 0.0));
+            if (round.empty() && plane.empty()) ++_lost;
+            const glm::dvec3 start =
+                listOf(plane.empty() ? round : plane, "offset", glm::dvec3(0.0));
+            const bool isInside = numberOf(round, "radius", 0.0) > 0.0 && isTrue(round, "inside");
+            if (!plane.empty())
+                addPlane(nodeOf(collider), start,
+                         listOf(plane, "normal", glm::dvec3(0.0, 0.0, 1.0)));
+            else
+                addCollider(round.empty() ? -1 : nodeOf(collider), start,
+                            listOf(capsule, "tail", start),
+                            (isInside ? -1.0 : 1.0) * numberOf(round, "radius", 0.0));
         }
         for (const json& group : memberOf(springs, "colliderGroups")) {
             _groups.emplace_back();
@@ -122,6 +134,22 @@ private:
             }
             addChain(std::move(chain), spring);
         }
+    }
+
+    static bool isTrue(const json& object, const char* name) {
+        const auto found = object.find(name);
+        return found != object.end() && *found == true;
+    }
+
+    /// A plane as a sphere of 100 km.
+    void addPlane(int node, const glm::dvec3& point, const glm::dvec3& normal) {
+        const double length = glm::length(normal);
+        if (node < 0 || !(length > 0.0)) return addCollider(-1, point, point, 0.0);
+        const glm::dmat4& place = _places[static_cast<std::size_t>(node)];
+        const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(place))));
+        const double radius = scale > 0.0 ? kPlaneRadius / scale : 0.0;
+        const glm::dvec3 centre = point - normal * (radius / length);
+        addCollider(node, centre, centre, radius);
     }
 
     /// \param node -1: it touches nothing

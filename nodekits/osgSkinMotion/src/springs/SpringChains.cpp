@@ -19,9 +19,10 @@ constexpr int kSettleSteps = 60;        ///< of 1/60 s
 constexpr double kLeastBraking = -0.3;  ///< of a bone that is pushed, which speeds it up
 constexpr double kSettleDrag = 0.5;     ///< at least
 constexpr double kTiny = 1e-9;          ///< metres
+constexpr double kLeastLength = 1e-3;   ///< of a bone, in lengths of its chain's longest
 constexpr double kMaxStiffness = 1e6, kMaxLength = 1e12;
-constexpr double kClear = 1.001; ///< of a collider's radius, so that few rounds are needed
-constexpr int kMaxRounds = 128;  ///< among several colliders
+constexpr double kClear = 1e-3; ///< room to colliders, so that few rounds are needed
+constexpr int kMaxRounds = 128; ///< among several colliders
 
 double inRange(double value, double most) {
     return std::isfinite(value) ? std::clamp(value, 0.0, most) : 0.0;
@@ -58,11 +59,11 @@ glm::dvec3 toLength(const glm::dvec3& tip, const glm::dvec3& before, double leng
     return reached > kTiny ? tip * (length / reached) : before;
 }
 
-/// Moves a tip, on the sphere about its joint, to the nearest point outside of a ball; where there
-/// is none, to the one farthest from the ball's centre.
+/// Moves a tip, on the sphere about its joint, to the nearest point of a ball's surface, or to the
+/// one nearest to that.
 /// \param ball relative to the joint
 /// \param tip relative to the joint
-glm::dvec3 outOfBall(const glm::dvec3& ball, double radius, double length, const glm::dvec3& tip) {
+glm::dvec3 ontoBall(const glm::dvec3& ball, double radius, double length, const glm::dvec3& tip) {
     const double distance = glm::length(ball);
     if (distance <= kTiny) return tip;
     const glm::dvec3 towards = ball / distance;
@@ -114,6 +115,12 @@ bool SpringChains::move(const Frame& frame, double seconds) {
 void SpringChains::settle() {
     _before = _now;
     _isMoving = true;
+    std::vector<double> longest(_joints.size(), 0.0); // of the chain with that top
+    for (std::size_t j = 0; j < _joints.size(); ++j)
+        longest[_states[j].top] =
+            std::max(longest[_states[j].top], glm::length(_now.bones[j].tip - _now.bones[j].head));
+    for (State& state : _states)
+        state.leastLength = std::max(kTiny, kLeastLength * longest[state.top]);
     for (std::size_t j = 0; j < _joints.size(); ++j) {
         const Bone& bone = _now.bones[j];
         State& state = _states[j];
@@ -192,7 +199,7 @@ void SpringChains::step(double share) {
             state.swing * glm::mix(before.tip - before.head, now.tip - now.head, share);
         const double length = glm::length(bone);
         const glm::dvec3 last = std::exchange(_tips[j], state.head);
-        if (length <= kTiny) continue;
+        if (length <= state.leastLength) continue;
         const double braking = std::max(state.pull / (kVrmRate * length), kLeastBraking);
         const glm::dvec3 speed =
             state.kept * (state.headSpeed + (state.speed - state.headSpeed) /
@@ -218,18 +225,21 @@ void SpringChains::step(double share) {
 glm::dvec3 SpringChains::outOfColliders(std::size_t joint, double length, glm::dvec3 tip,
                                         double share) const {
     const glm::dvec3& head = _states[joint].head;
-    bool isInside = !_joints[joint].colliders.empty();
-    for (int round = 0; isInside && round < kMaxRounds; ++round) {
-        isInside = false;
+    bool isMoved = !_joints[joint].colliders.empty();
+    for (int round = 0; isMoved && round < kMaxRounds; ++round) {
+        isMoved = false;
         for (const std::size_t index : _joints[joint].colliders) {
             const Collider &before = _before.colliders[index], &now = _now.colliders[index];
             const Collider at{glm::mix(before.start, now.start, share) - head,
                               glm::mix(before.end, now.end, share) - head, now.radius};
             const glm::dvec3 ball = nearestOn(at, tip);
-            const double radius = at.radius + _joints[joint].radius;
-            if (glm::length(tip - ball) >= radius) continue;
-            tip = outOfBall(ball, radius * kClear, length, tip);
-            isInside = true;
+            const bool isInside = at.radius < 0.0;
+            const double radius = isInside ? std::max(-at.radius - _joints[joint].radius, 0.0)
+                                           : at.radius + _joints[joint].radius;
+            if ((glm::length(tip - ball) >= radius) != isInside) continue;
+            const double clear = kClear * std::min(radius, length);
+            tip = ontoBall(ball, isInside ? radius - clear : radius + clear, length, tip);
+            isMoved = true;
         }
     }
     return tip;

@@ -19,6 +19,9 @@ namespace osgSkin {
 /// brakes the swing as much as gravity and stiffness do move it: at 60 frames a second most hair
 /// would whip without it. Steps take the same part of the speed, by the pull in the step before.
 ///
+/// A bone far shorter than the longest of its chain follows its parent: the least noise would turn
+/// it by any angle.
+///
 /// All in metres and in one space: the world, or that of a centre.
 class SpringChains {
 public:
@@ -37,7 +40,7 @@ public:
 
     struct Collider {
         glm::dvec3 start{0.0}, end{0.0};
-        double radius = 0.0;
+        double radius = 0.0; ///< negative: tips stay inside
     };
 
     struct Frame {
@@ -61,6 +64,7 @@ private:
     struct State {
         std::size_t top = 0;        ///< the topmost joint of the chain
         glm::dvec3 frameSpeed{0.0}; ///< of a topmost joint, in the last frame
+        double leastLength = 0.0;   ///< of a bone that swings by itself
         double kept = 1.0;          ///< part of the speed, in a step
         double gainToPose = 0.0;    ///< of speed, as is `gain`
         glm::dvec3 gain{0.0};       ///< by gravity
