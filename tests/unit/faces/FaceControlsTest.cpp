@@ -101,8 +101,28 @@ TEST(FaceControls, TellOfNamesThatMoveNothing) {
     EXPECT_FALSE(controls.set("tongueOut", 1.0f));
     EXPECT_EQ(controls.matches()[2].kind, osgSkin::FaceMatch::Kind::Rest);
     EXPECT_FALSE(controls.set("viseme_sil", 1.0f));
-    EXPECT_FALSE(controls.set("eyeBlinkLeft", 1.0f)) << "not one of its names";
+    EXPECT_FALSE(controls.set("eyeBlinkLeft", 1.0f));
     EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), Floats{0.0f});
+}
+
+/// As programs send them by VMC: VRM 0's names, and the model's own.
+TEST(FaceControls, MatchNamesWhenTheyFirstCome) {
+    const auto face = makeFace({{"happy", "blinkLeft", "aa", "joyful"}});
+    FaceControls controls(*face);
+    const std::size_t given = controls.matches().size();
+    EXPECT_TRUE(controls.set("Joy", 0.5f));
+    EXPECT_TRUE(controls.set("Blink_L", 0.25f));
+    EXPECT_TRUE(controls.set("A", 1.0f));
+    EXPECT_TRUE(controls.set("JOYFUL", 0.75f));
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.5f, 0.25f, 1.0f, 0.75f}));
+    EXPECT_TRUE(controls.set("joy", 0.125f)) << "the same name as \"Joy\"";
+    EXPECT_EQ(skinOf(*face, 0).getMorphWeights(), (Floats{0.125f, 0.25f, 1.0f, 0.75f}));
+    EXPECT_FALSE(controls.set("glasses", 1.0f));
+    EXPECT_EQ(controls.matches().size(), given + 5);
+    EXPECT_TRUE(controls.set(Floats(given, 0.0f)));
+    for (int i = 0; i < 1200; ++i)
+        EXPECT_FALSE(controls.set("stranger" + std::to_string(i), 1.0f));
+    EXPECT_LE(controls.matches().size(), 1024u);
 }
 
 TEST(FaceControls, OutliveSkinsAndTheirTargets) {
