@@ -3,6 +3,8 @@
 
 #include "clips/BakedClip.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -23,7 +25,7 @@ double clampedWeight(double weight) {
 }
 
 double eased(ClipPlayer::Easing easing, double share) {
-    return easing == ClipPlayer::Easing::Smooth ? share * share * (3.0 - 2.0 * share) : share;
+    return easing == ClipPlayer::Easing::Smooth ? glm::smoothstep(0.0, 1.0, share) : share;
 }
 
 /// Without a loop.
@@ -75,6 +77,7 @@ void ClipLayers::set(std::size_t index, const Layer& layer) {
 
 void ClipLayers::assign(Slot& slot, const Layer& layer) {
     _known = _known && slot.layer.clip == layer.clip && slot.layer.joints == layer.joints &&
+             slot.layer.jointWeights == layer.jointWeights &&
              slot.layer.additive == layer.additive && slot.layer.reference == layer.reference;
     slot.layer = layer;
     slot.layer.time = finite(layer.time);
@@ -83,6 +86,9 @@ void ClipLayers::assign(Slot& slot, const Layer& layer) {
     slot.layer.reference = finite(layer.reference);
     slot.fadeSeconds = 0.0;
     slot.ends = false;
+    slot.steps = nullptr;
+    if (layer.inStep && layer.loop && layer.clip && layer.clip->footContacts().hasSteps())
+        slot.steps = &layer.clip->footContacts();
 }
 
 /// Sets a layer so that twists continue.
@@ -98,6 +104,15 @@ void ClipLayers::seek(std::size_t index, double time) {
     if (index >= _slots.size()) return;
     _slots[index].starts = true;
     _slots[index].layer.time = finite(time);
+}
+
+void ClipLayers::setPhase(double phase) {
+    for (std::size_t i = 0; i < _slots.size(); ++i) {
+        const Layer& layer = _slots[i].layer;
+        if (!layer.clip || !layer.loop) continue;
+        const FootContacts& contacts = layer.clip->footContacts();
+        seek(i, contacts.hasSteps() ? contacts.timeAt(phase) : phase * layer.clip->duration());
+    }
 }
 
 void ClipLayers::setSpeed(std::size_t index, double speed) {
@@ -123,7 +138,9 @@ void ClipLayers::startFade(Slot& slot, double weight, double seconds, Easing eas
 void ClipLayers::play(const Layer& layer, double seconds, Easing easing, const JointSample* posed) {
     if (_slots.size() < 2) _slots.resize(2);
     const bool fades = _slots[0].layer.clip && seconds > 0.0;
-    const Layer next{layer.clip, layer.time, layer.speed, layer.loop, fades ? 0.0 : 1.0};
+    if (fades && playBack(layer, seconds, easing)) return;
+    Layer next{layer.clip, layer.time, layer.speed, layer.loop, fades ? 0.0 : 1.0};
+    next.inStep = layer.inStep;
     if (fades && _slots[1].isFull())
         moveDown();
     else if (fades && _slots[1].isActive())
@@ -134,6 +151,23 @@ void ClipLayers::play(const Layer& layer, double seconds, Easing easing, const J
     else
         replace(1, {});
     _crosses = fades;
+}
+
+/// Fades back to the clip from which a fade in step still goes on.
+/// \return false where there is no such fade
+bool ClipLayers::playBack(const Layer& layer, double seconds, Easing easing) {
+    if (!_crosses || !layer.inStep || layer.clip != _slots[0].layer.clip || !_slots[0].steps ||
+        !_slots[1].steps || !_slots[1].isActive())
+        return false;
+    const double weight = 1.0 - _slots[1].layer.weight;
+    std::swap(_slots[0], _slots[1]);
+    _slots[0].layer.weight = 1.0;
+    _slots[0].fadeSeconds = 0.0;
+    _slots[1].layer.weight = weight;
+    _slots[1].layer.speed = finite(layer.speed);
+    startFade(_slots[1], 1.0, seconds, easing);
+    _known = false;
+    return true;
 }
 
 /// Layer 1 becomes layer 0.
@@ -183,10 +217,7 @@ void ClipLayers::removeEvents(const SampledClip* clip) {
 }
 
 void ClipLayers::advance(double seconds) {
-    for (Slot& slot : _slots) {
-        slot.before = slot.layer.time;
-        slot.layer.time = finite(slot.layer.time + slot.layer.speed * seconds);
-    }
+    advanceTimes(seconds);
     if (extracts() && prepare()) advanceRoot();
     for (std::size_t i = 0; i < _slots.size(); ++i) {
         Slot& slot = _slots[i];
@@ -201,6 +232,43 @@ void ClipLayers::advance(double seconds) {
     std::sort(_reached.begin(), _reached.end(), [](const Reached& a, const Reached& b) {
         return std::tie(a.share, a.layer, a.order) < std::tie(b.share, b.layer, b.order);
     });
+}
+
+/// Layers in step get one phase, which advances at the mean of their rates; one that starts is put
+/// to the phase of the layer that is seen most.
+void ClipLayers::advanceTimes(double seconds) {
+    const Slot* lead = nullptr;
+    double rate = 0.0, seen = 0.0, most = 0.0, uncovered = 1.0;
+    std::size_t count = 0;
+    for (std::size_t i = _slots.size(); i-- > 0;) {
+        Slot& slot = _slots[i];
+        slot.before = slot.layer.time;
+        const double share = slot.isActive() ? uncovered * slot.layer.weight : 0.0;
+        if (slot.layer.joints.empty() && !slot.layer.additive) uncovered -= share;
+        if (!slot.steps) {
+            slot.layer.time = finite(slot.layer.time + slot.layer.speed * seconds);
+            continue;
+        }
+        ++count;
+        seen += share;
+        rate += share * slot.layer.speed * slot.steps->rateAt(slot.before);
+        if (share < most || share == 0.0) continue;
+        most = share;
+        lead = &slot;
+    }
+    const double phase = lead && count > 1 ? lead->steps->phaseAt(lead->before) : 0.0;
+    for (Slot& slot : _slots) {
+        if (!slot.steps) continue;
+        if (!lead || count == 1) {
+            slot.layer.time = finite(slot.layer.time + slot.layer.speed * seconds);
+            continue;
+        }
+        const double own = slot.steps->phaseAt(slot.before);
+        const double now = phase + std::round(own - phase); // in the loop in which it is
+        if (&slot != lead && (slot.starts || !slot.isActive()))
+            slot.before = slot.posedTime = slot.steps->timeAt(now);
+        slot.layer.time = finite(slot.steps->timeAt(now + rate / seen * seconds));
+    }
 }
 
 void ClipLayers::advanceFade(Slot& slot, double seconds) {
@@ -301,7 +369,11 @@ void ClipLayers::matchJoints(Slot& slot) const {
         if (!isNamed(layer, name)) continue;
         // A clip that moves the whole figure has the joints that it lacks at rest.
         if (own < 0 && (layer.additive || !layer.joints.empty())) continue;
-        slot.joints.push_back({j, own});
+        const auto named = std::find(layer.joints.begin(), layer.joints.end(), name);
+        const auto place = static_cast<std::size_t>(named - layer.joints.begin());
+        slot.joints.push_back(
+            {j, own,
+             place < layer.jointWeights.size() ? clampedWeight(layer.jointWeights[place]) : 1.0});
         if (!layer.additive) continue;
         const auto k = static_cast<std::size_t>(own);
         slot.reference.push_back(
@@ -318,7 +390,8 @@ void ClipLayers::blend(const Slot& slot, const JointSample* posed,
     if (!_interpolated || posed) at.share = 0.0;
     const JointSample* from = posed ? posed : clip.sample(at.from);
     const JointSample* next = posed ? posed : clip.sample(at.to);
-    const SampleBlend between(at.share), weighted(layer.weight);
+    const SampleBlend between(at.share), whole(layer.weight);
+    SampleBlend partial = whole;
     const int root = _root == Root::Moving ? -2 : static_cast<int>(clip.rootJoint());
     for (std::size_t k = 0; k < slot.joints.size(); ++k) {
         const Match& match = slot.joints[k];
@@ -326,6 +399,8 @@ void ClipLayers::blend(const Slot& slot, const JointSample* posed,
         if (match.own >= 0) own = between(from[match.own], next[match.own]);
         if (match.own == root) keepInPlace(clip, own);
         JointSample& below = joints[match.joint];
+        if (match.share < 1.0) partial = SampleBlend(layer.weight * match.share);
+        const SampleBlend& weighted = match.share < 1.0 ? partial : whole;
         if (layer.additive) {
             JointSample reference = slot.reference[k];
             if (match.own == root) keepInPlace(clip, reference);

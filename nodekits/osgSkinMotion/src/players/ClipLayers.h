@@ -32,6 +32,7 @@ public:
     void set(std::size_t index, const Layer& layer);
     const Layer& get(std::size_t index) const;
     void seek(std::size_t index, double time);
+    void setPhase(double phase);
     void setSpeed(std::size_t index, double speed);
     void fade(std::size_t index, double weight, double seconds, Easing easing);
     /// \param posed see sample()
@@ -76,7 +77,8 @@ private:
     /// A joint of prepare()'s clip that a layer moves.
     struct Match {
         std::size_t joint;
-        int own; ///< in the layer's clip; -1: it is at rest there
+        int own;      ///< in the layer's clip; -1: it is at rest there
+        double share; ///< of the layer's weight
     };
 
     struct Slot {
@@ -91,7 +93,8 @@ private:
         double before = 0.0;       ///< the time before advance()
         double posedTime = 0.0;    ///< at markPosed()
         std::vector<Match> joints; ///< that it moves
-        std::vector<JointSample> reference; ///< of these, if it is additive
+        const FootContacts* steps = nullptr; ///< of its clip, if it plays in step
+        std::vector<JointSample> reference;  ///< of these, if it is additive
 
         bool isActive() const { return layer.clip && layer.weight > 0.0; }
         bool isFull() const {
@@ -116,7 +119,9 @@ private:
     void replace(std::size_t index, const Layer& layer);
     void moveDown();
     void startFade(Slot& slot, double weight, double seconds, Easing easing);
+    void advanceTimes(double seconds);
     void advanceFade(Slot& slot, double seconds);
+    bool playBack(const Layer& layer, double seconds, Easing easing);
     void findReached(std::size_t index);
     std::size_t firstSeen(std::size_t end) const;
     void matchJoints(Slot& slot) const;
@@ -126,7 +131,7 @@ private:
     osg::ref_ptr<const SampledClip> frozen(const JointSample* posed);
 
     // RootMotion.cpp
-    bool extracts() const { return _root == Root::Extracted || _root == Root::ExtractedWithTurn; }
+    bool extracts() const { return _root != Root::Moving && _root != Root::InPlace; }
     GroundMove then(const GroundMove& first, const GroundMove& next) const;
     GroundMove reversed(const GroundMove& move) const;
     GroundMove power(GroundMove move, double times) const;

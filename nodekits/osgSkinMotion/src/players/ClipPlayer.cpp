@@ -80,6 +80,10 @@ void ClipPlayer::seek(std::size_t index, double time) {
     _layers->seek(index, time);
 }
 
+void ClipPlayer::setPhase(double phase) {
+    if (std::isfinite(phase)) _layers->setPhase(phase);
+}
+
 void ClipPlayer::setSpeed(std::size_t index, double speed) {
     _layers->setSpeed(index, speed);
 }
@@ -108,6 +112,16 @@ void ClipPlayer::addEvent(const SampledClip* clip, double time, const Event& eve
     _layers->addEvent(clip, time, event);
 }
 
+void ClipPlayer::addFootEvents(
+    const SampledClip* clip,
+    const std::function<void(ClipPlayer& player, std::size_t foot)>& event) {
+    if (!clip || !event) return;
+    for (const FootContacts::Contact& contact : clip->footContacts().all)
+        addEvent(
+            clip, contact.begin,
+            [event, foot = contact.foot](ClipPlayer& player, std::size_t) { event(player, foot); });
+}
+
 void ClipPlayer::removeEvents(const SampledClip* clip) {
     _layers->removeEvents(clip);
 }
@@ -134,7 +148,7 @@ ClipPlayer::Root ClipPlayer::getRoot() const {
 
 osg::Vec3d ClipPlayer::takeRootMotion() {
     const osg::Vec3d shift = _layers->takeMotion().shift;
-    return getRoot() == Root::Extracted ? shift : osg::Vec3d();
+    return getRoot() == Root::ExtractedWithTurn ? osg::Vec3d() : shift;
 }
 
 osg::Matrixd ClipPlayer::takeRootMatrix(const osg::Matrixd& toWorld) {

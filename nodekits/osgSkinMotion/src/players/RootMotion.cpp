@@ -112,6 +112,11 @@ ClipLayers::GroundMove ClipLayers::seamStep(const SampledClip& clip) const {
 
 /// The move of a layer's root in the step of advance().
 ClipLayers::GroundMove ClipLayers::rootStep(const Slot& slot) const {
+    if (_root == Root::FromFeet && slot.layer.loop) {
+        const glm::dvec3& velocity = slot.layer.clip->footContacts().velocity;
+        if (velocity != glm::dvec3(0.0))
+            return {0.0, alongGround(toOsg(velocity)) * (slot.layer.time - slot.before)};
+    }
     double before = 0.0, after = 0.0;
     const GroundMove from = rootAt(slot.layer, slot.before, before);
     GroundMove to = rootAt(slot.layer, slot.layer.time, after);
