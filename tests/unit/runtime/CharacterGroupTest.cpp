@@ -54,6 +54,7 @@ public:
 
 TEST(CharacterGroup, PosesAsAnyGroup) {
     const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(0.0);
     Street street(group), plain(new osg::Group);
     for (int frame = 0; frame < 30; ++frame) {
         const double time = frame / 30.0;
@@ -67,6 +68,7 @@ TEST(CharacterGroup, PosesAsAnyGroup) {
 
 TEST(CharacterGroup, DeformsWhatWasSeen) {
     const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(0.0);
     Street street(group, 2);
     street.show(0.0);
     street.show(0.1);
@@ -77,6 +79,7 @@ TEST(CharacterGroup, DeformsWhatWasSeen) {
 
 TEST(CharacterGroup, LeavesCallbacksOfApplicationsToTheUpdateTraversal) {
     const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(0.0);
     Street street(group), plain(new osg::Group);
     street.show(0.0);
     street.show(0.1);
@@ -107,6 +110,7 @@ TEST(CharacterGroup, UpdatesCharactersWithOneCallbackInTurn) {
 
 TEST(CharacterGroup, NoticesChildrenThatComeAndGo) {
     const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(0.0);
     Street street(group, 5);
     street.show(0.0);
     Character late(played::someClip(9, 0.5)), alone(played::someClip(9, 0.5));
@@ -134,6 +138,58 @@ TEST(CharacterGroup, LeavesWhatIsSwitchedOff) {
     choice->setAllChildrenOn();
     test::updateAt(*group, 0.3);
     EXPECT_NE(test::verticesOf(*character.skin), before);
+}
+
+/// The frames, of so many, in which a character moves; each time it must be where any group has it.
+std::vector<int> movedFrames(CharacterGroup& group, int frames, bool looks) {
+    Street street(&group), plain(new osg::Group);
+    std::vector<int> moved;
+    std::vector<osg::Vec3> before;
+    for (int frame = 0; frame < frames; ++frame) {
+        const double time = frame / 30.0;
+        street.show(time);
+        plain.show(time);
+        if (looks) {
+            osg::NodeVisitor visitor(osg::NodeVisitor::TRAVERSE_ALL_CHILDREN);
+            group.accept(visitor);
+            EXPECT_EQ(street.vertices(), plain.vertices()) << frame;
+        }
+        const std::vector<osg::Vec3> now = test::verticesOf(*street.characters[0].skin);
+        if (now != before) moved.push_back(frame);
+        if (now != before) {
+            EXPECT_EQ(now, test::verticesOf(*plain.characters[0].skin)) << frame;
+        }
+        before = now;
+    }
+    return moved;
+}
+
+TEST(CharacterGroup, UpdatesSmallCharactersInEveryEighthFrame) {
+    const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(1e6);
+    const std::vector<int> moved = movedFrames(*group, 26, false);
+    ASSERT_GE(moved.size(), 4u);
+    for (std::size_t i = moved.size() - 2; i < moved.size(); ++i)
+        EXPECT_EQ(moved[i] - moved[i - 1], 8);
+}
+
+TEST(CharacterGroup, ShowsTheTimesPoseToVisitors) {
+    const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(1e6);
+    EXPECT_EQ(movedFrames(*group, 20, true).size(), 20u);
+}
+
+TEST(CharacterGroup, UpdatesInEachFrameWhatNoCameraHasSeen) {
+    const osg::ref_ptr<CharacterGroup> group = new CharacterGroup;
+    group->setFullRateSize(1e6);
+    Street street(group, 3);
+    std::vector<osg::Vec3> before;
+    for (const double time : {0.1, 0.2, 0.3, 0.4}) {
+        test::updateAt(*group, time);
+        const std::vector<osg::Vec3> now = street.vertices();
+        EXPECT_NE(now, before);
+        before = now;
+    }
 }
 
 } // namespace

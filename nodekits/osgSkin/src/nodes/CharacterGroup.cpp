@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/CharacterGroup>
 
+#include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osg/StateSet>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -21,6 +24,31 @@ bool isOwn(const osg::Callback& callback) {
     return std::any_of(kOwn.begin(), kOwn.end(), [&](const char* name) {
         return std::strcmp(callback.className(), name) == 0;
     });
+}
+
+/// Whether a callback does nothing but show a clip at the frame's time.
+bool showsTime(const osg::Callback& callback) {
+    constexpr std::array<const char*, 8> kClips = {
+        "UpdateBone",           "UpdateSkeleton",        "UpdateMatrixTransform",
+        "AutoPlayManager",      "BasicAnimationManager", "UpdatePlayedSkeleton",
+        "UpdateDeformableSkin", "UpdateMorphs"};
+    return isOwn(callback) && std::any_of(kClips.begin(), kClips.end(), [&](const char* name) {
+               return std::strcmp(callback.className(), name) == 0;
+           });
+}
+
+/// Whether a node wants update traversals for something else than what is below it.
+bool updatesItself(const osg::Node& node) {
+    const osg::Group* const group = node.asGroup();
+    unsigned int below = 0;
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        if (child.getUpdateCallback() || child.getNumChildrenRequiringUpdateTraversal() > 0)
+            ++below;
+    }
+    const osg::StateSet* const state = node.getStateSet();
+    return node.getNumChildrenRequiringUpdateTraversal() > below ||
+           (state && state->requiresUpdateTraversal());
 }
 
 /// Updates one character, as osgUtil::UpdateVisitor does. Stops at what may touch others.
@@ -65,6 +93,7 @@ class FindParts : public osg::NodeVisitor {
 public:
     FindParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
     void apply(osg::Node& node) override {
+        updatesItself = updatesItself || osgSkin::updatesItself(node);
         for (const osg::Callback* c = node.getUpdateCallback(); c; c = c->getNestedCallback())
             callbacks.push_back(c);
         if (auto* skin = dynamic_cast<DeformableSkin*>(&node)) skins.emplace_back(skin);
@@ -72,6 +101,7 @@ public:
     }
     std::vector<osg::ref_ptr<DeformableSkin>> skins;
     std::vector<const osg::Callback*> callbacks;
+    bool updatesItself = false;
 };
 
 } // namespace
@@ -105,8 +135,31 @@ void CharacterGroup::findChildren() {
         for (const osg::Callback* callback : find.callbacks)
             if (!seen.insert(callback).second) child.isOrdinary = true;
         child.isOrdinary = child.isOrdinary || (!child.isNew && known->isOrdinary);
+        child.mayWait = !find.updatesItself && !child.isOrdinary &&
+                        std::all_of(find.callbacks.begin(), find.callbacks.end(),
+                                    [](const osg::Callback* c) { return showsTime(*c); });
         child.skins = std::move(find.skins);
     }
+    _sizes = std::vector<std::atomic<float>>(count);
+    for (std::atomic<float>& size : _sizes) size = -1.0f;
+}
+
+/// How many frames a child's update serves.
+unsigned int CharacterGroup::framesOf(std::size_t index) {
+    const float size = _sizes[index].exchange(-1.0f, std::memory_order_relaxed);
+    const auto full = static_cast<float>(_fullRateSize);
+    if (!_children[index].mayWait || size < 0.0f || size >= full) return 1;
+    return size >= 0.5f * full ? 2 : size >= 0.25f * full ? 4 : 8;
+}
+
+/// \return false where the child needs an ordinary update
+bool CharacterGroup::updateChild(std::size_t index, const osg::NodeVisitor& nv) {
+    static thread_local osg::ref_ptr<CharacterUpdate> visitor = new CharacterUpdate;
+    Child& child = _children[index];
+    osg::Node& node = *getChild(static_cast<unsigned int>(index));
+    child.isOrdinary = !visitor->update(node, nv);
+    child.isLate = false;
+    return !child.isOrdinary;
 }
 
 void CharacterGroup::update(osg::NodeVisitor& nv) {
@@ -116,13 +169,12 @@ void CharacterGroup::update(osg::NodeVisitor& nv) {
     _pool->forEach(_children.size(), [&](std::size_t i) {
         Child& child = _children[i];
         if (child.isOrdinary || child.isNew) return;
-        static thread_local osg::ref_ptr<CharacterUpdate> visitor = new CharacterUpdate;
-        osg::Node& node = *getChild(static_cast<unsigned int>(i));
-        child.isOrdinary = !visitor->update(node, nv);
-        if (child.isOrdinary) return;
+        child.isLate = (_updates + i) % framesOf(i) != 0;
+        if (child.isLate) _isLate = true;
+        if (child.isLate || !updateChild(i, nv)) return;
         for (const osg::ref_ptr<DeformableSkin>& skin : child.skins)
             if (skin->needsDeform() && skin->wasSeen()) skin->getDeformedGeometry();
-        node.getBound();
+        getChild(static_cast<unsigned int>(i))->getBound();
     });
     // Whatever is made at the first update is made on one thread: characters may share it.
     for (std::size_t i = 0; i < _children.size(); ++i) {
@@ -134,12 +186,54 @@ void CharacterGroup::update(osg::NodeVisitor& nv) {
 }
 
 void CharacterGroup::traverse(osg::NodeVisitor& nv) {
-    if (nv.getVisitorType() != osg::NodeVisitor::UPDATE_VISITOR) {
+    const osg::NodeVisitor::VisitorType type = nv.getVisitorType();
+    if (type != osg::NodeVisitor::UPDATE_VISITOR) {
+        if (type == osg::NodeVisitor::CULL_VISITOR)
+            measure(nv);
+        else if (type != osg::NodeVisitor::EVENT_VISITOR && _isLate)
+            catchUp();
         osg::Group::traverse(nv);
         return;
     }
+    _isLate = false;
+    ++_updates;
     update(nv);
     for (Child& child : _children) child.isNew = false;
+    if (!_isLate) return;
+    if (!_last) _last = new osg::NodeVisitor(osg::NodeVisitor::UPDATE_VISITOR);
+    const osg::FrameStamp* const stamp = nv.getFrameStamp();
+    _last->setFrameStamp(stamp ? new osg::FrameStamp(*stamp) : nullptr);
+    _last->setTraversalNumber(nv.getTraversalNumber());
+    _last->setTraversalMask(nv.getTraversalMask());
+    _last->setNodeMaskOverride(nv.getNodeMaskOverride());
+    _last->getNodePath() = nv.getNodePath();
+}
+
+/// Updates those that have waited.
+void CharacterGroup::catchUp() {
+    const std::lock_guard<std::mutex> lock(_catching);
+    for (std::size_t i = 0; i < _children.size() && _isLate; ++i)
+        if (_children[i].isLate && i < getNumChildren() &&
+            _children[i].node == getChild(unsigned(i)))
+            updateChild(i, *_last);
+    _isLate = false;
+}
+
+/// Notes how large a camera sees the children.
+void CharacterGroup::measure(osg::NodeVisitor& nv) {
+    osgUtil::CullVisitor* const cv = nv.asCullVisitor();
+    if (!cv || _fullRateSize == 0.0 || _sizes.size() != getNumChildren()) return;
+    for (std::size_t i = 0; i < _sizes.size(); ++i) {
+        const float size = std::max(0.0f, cv->pixelSize(getChild(unsigned(i))->getBound()));
+        float before = _sizes[i].load(std::memory_order_relaxed);
+        while (before < size &&
+               !_sizes[i].compare_exchange_weak(before, size, std::memory_order_relaxed)) {
+        }
+    }
+}
+
+void CharacterGroup::setFullRateSize(double pixels) {
+    if (pixels >= 0.0 && std::isfinite(pixels)) _fullRateSize = pixels;
 }
 
 } // namespace osgSkin
