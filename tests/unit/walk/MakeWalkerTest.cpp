@@ -78,6 +78,29 @@ TEST(MakeWalker, FindsClipsByTheirNames) {
     EXPECT_LT(report.walkSlide, 0.02);
 }
 
+TEST(MakeWalker, TakesTheShortestNameAndTheCalmestClip) {
+    std::vector<osgSkin::Clip> clips;
+    for (const char* name : {"2H_Melee_Idle", "Idle", "Walking_Backwards", "Walking_A"}) {
+        const bool walks = std::string(name).find("Walk") == 0;
+        clips.push_back(walks ? walking::gaitClip(walking::walk()) : walking::idleClip());
+        clips.back().name = name;
+    }
+    WalkerReport report;
+    osgSkin::makeWalker(*walking::makeFigure(clips), {}, &report);
+    EXPECT_EQ(report.standing, "Idle");
+    EXPECT_EQ(report.walking, "Walking_A");
+
+    osgSkin::Clip restless = walking::idleClip();
+    for (std::size_t f = 0; f < restless.frames; f += 2)
+        restless.rotations[f * restless.joints + 3] = glm::angleAxis(1.0, glm::dvec3(0, 0, 1));
+    restless.name = "idle_a";
+    osgSkin::Clip calm = walking::idleClip();
+    calm.name = "idle_b";
+    osgSkin::makeWalker(*walking::makeFigure({restless, calm, walking::gaitClip(walking::walk())}),
+                        {}, &report);
+    EXPECT_EQ(report.standing, "idle_b");
+}
+
 TEST(MakeWalker, FindsAWalkWithoutAName) {
     walking::GaitOf walk = walking::walk();
     walk.name = "mixamo.com";

@@ -77,7 +77,7 @@ private:
 
     void findBody();
     void findClips(WalkerReport& report);
-    std::string named(const std::string& asked, const std::vector<std::string>& words) const;
+    std::string named(const std::string& asked, const std::vector<std::string>& words);
     double findStanding(Gaits::Set& set, const WalkerReport& report);
     osg::ref_ptr<const SampledClip> standingOf(const SampledClip& walk) const;
     osg::ref_ptr<Walker> build(Gaits::Set& set) const;
@@ -89,22 +89,40 @@ private:
     WalkingBody _body;
 };
 
-/// The clip that is asked for, or else the first one whose name has one of the words.
-std::string WalkerMaker::named(const std::string& asked,
-                               const std::vector<std::string>& words) const {
+/// Radians by which a clip's joints turn in a second, all together.
+double restlessness(const SampledClip& clip) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < clip.sampleCount(); ++i)
+        for (std::size_t j = 0; j < clip.joints().size(); ++j)
+            sum += 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(clip.sample(i - 1)[j].rotation,
+                                                                   clip.sample(i)[j].rotation))));
+    return sum / clip.duration();
+}
+
+/// The clip that is asked for, or else the one with one of the words and the shortest name, since
+/// others are variants ("2H_Melee_Idle"); of several the calmest.
+std::string WalkerMaker::named(const std::string& asked, const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const auto& animation : _character->animations()) names.push_back(animation->getName());
     if (!asked.empty()) {
         if (has(asked)) return asked;
         failWalker("no clip \"" + asked + "\"" + expectedNames(asked, names));
     }
-    for (const std::string& word : words)
+    for (const std::string& word : words) {
+        std::string best;
         for (const std::string& name : names) {
             std::string lower = name;
             std::transform(lower.begin(), lower.end(), lower.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-            if (lower.find(word) != std::string::npos) return name;
+            if (lower.find(word) == std::string::npos || lower.find("back") != std::string::npos)
+                continue;
+            if (best.empty() || name.size() < best.size() ||
+                (name.size() == best.size() &&
+                 restlessness(*clip(name)) < restlessness(*clip(best))))
+                best = name;
         }
+        if (!best.empty()) return best;
+    }
     return {};
 }
 
