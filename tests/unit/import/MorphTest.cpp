@@ -364,6 +364,28 @@ TEST(VrmExpressions, BecomeMorphTargets) {
     }
 }
 
+TEST(VrmExpressions, NoteWhatIsNotSupported) {
+    Face face;
+    const json bind = {{"node", face.meshNode}, {"index", 0}, {"weight", 1.0}};
+    json& preset = face.json["extensions"]["VRMC_vrm"]["expressions"]["preset"];
+    for (const char* name : {"happy", "blink", "aa", "ih"})
+        preset[name] = {{"morphTargetBinds", {bind}}, {"overrideMouth", "none"}};
+    preset["happy"]["isBinary"] = true;
+    preset["aa"]["overrideBlink"] = "block";
+    face.bend();
+    test::Notices notices;
+    osgSkin::importMesh(face.save("rules.vrm"));
+    EXPECT_TRUE(notices.say("2 expressions are binary or override blinking")) << notices.text();
+    face.json["extensions"]["VRMC_vrm_animation"] = {
+        {"humanoid", {{"humanBones", {{"hips", {{"node", face.joints[0]}}}}}}},
+        {"expressions", {{"preset", {{"happy", {{"node", 1}}}, {"aa", {{"node", 2}}}}}}},
+        {"lookAt", {{"node", 1}}}};
+    osgSkin::importMotion(face.save("rules.vrma"));
+    EXPECT_TRUE(notices.say("a VRM animation of 2 expressions and of where the eyes look, which "
+                            "are not supported: it moves joints alone"))
+        << notices.text();
+}
+
 TEST(VrmExpressions, IgnoresInvalidParts) {
     Face face;
     face.json["extensions"]["VRMC_vrm"]["expressions"]["preset"]["happy"]["morphTargetBinds"] = {

@@ -30,12 +30,41 @@ public:
         if (_coloured > 0)
             warn(path, std::to_string(_coloured) +
                            " expressions change colours or textures, which is not supported");
+        if (_ruled > 0)
+            warn(path, std::to_string(_ruled) +
+                           " expressions are binary or override blinking, looking or the mouth, "
+                           "which is not supported: they are blended");
+        noteAnimation();
         if (_lost > 0)
             warn(path,
                  std::to_string(_lost) + " parts of expressions name no morph target; ignored");
     }
 
 private:
+    /// Says what a VRM animation moves beside joints.
+    void noteAnimation() const {
+        const json& animation =
+            memberOf(memberOf(_document.file.json, "extensions"), "VRMC_vrm_animation");
+        const json& expressions = memberOf(animation, "expressions");
+        const std::size_t count =
+            memberOf(expressions, "preset").size() + memberOf(expressions, "custom").size();
+        const bool looks = !memberOf(animation, "lookAt").empty();
+        if (count == 0 && !looks) return;
+        warn(_document.file.path, "a VRM animation of " + std::to_string(count) + " expressions" +
+                                      (looks ? " and of where the eyes look" : "") +
+                                      ", which are not supported: it moves joints alone");
+    }
+
+    /// Whether an expression acts with others in a way of its own.
+    static bool isRuled(const json& expression) {
+        for (const char* name : {"overrideBlink", "overrideLookAt", "overrideMouth"})
+            if (const auto found = expression.find(name);
+                found != expression.end() && *found != "none")
+                return true;
+        const auto binary = expression.find("isBinary");
+        return binary != expression.end() && *binary == true;
+    }
+
     /// VRM 0: weights up to 100, of meshes. Presets have the same names in all files, others are
     /// "unknown".
     void readFirst(const json& group) {
@@ -46,6 +75,7 @@ private:
         for (const json& bind : memberOf(group, "binds"))
             addPart(indexOf(bind, "mesh"), bind, 0.01);
         _coloured += !memberOf(group, "materialValues").empty();
+        _ruled += isRuled(group);
     }
 
     /// VRM 1: weights up to 1, of nodes.
@@ -58,6 +88,7 @@ private:
         }
         _coloured += !memberOf(expression, "materialColorBinds").empty() ||
                      !memberOf(expression, "textureTransformBinds").empty();
+        _ruled += isRuled(expression);
     }
 
     void begin(const std::string& name) {
@@ -87,6 +118,7 @@ private:
     UniqueNames _names;
     std::string _name;         ///< of the present expression
     std::size_t _coloured = 0; ///< expressions that also change materials
+    std::size_t _ruled = 0;    ///< expressions that are binary, or override others
     std::size_t _lost = 0;
 };
 
