@@ -6,6 +6,7 @@
 #include "ExpectError.h"
 #include "LeaksOfOthers.h"
 #include "MeshParts.h"
+#include "Notices.h"
 #include "Paths.h"
 #include "RiggedModels.h"
 
@@ -15,12 +16,15 @@
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSkeleton>
 
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <osg/Geometry>
 #include <osg/Texture2D>
 
 #include <algorithm>
 #include <cctype>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <string>
@@ -64,6 +68,65 @@ TEST(EditedFile, IsThatOfFbxAndCollada) {
     std::ofstream(dae) << R"(<controller id="a"><skin source="#b"></skin></controller>)"
                        << R"(<controller id="b"><skin source="#a"></skin></controller>)";
     expectError([&] { osgSkin::editFile(dae, {}, importer); }, "expected one of a mesh");
+}
+
+/// Each was looked for among all others.
+TEST(EditedFile, FollowsLongChainsOfMorphs) {
+    Assimp::Importer importer;
+    const std::string dae = testing::TempDir() + "chain.dae";
+    std::ofstream out(dae);
+    const std::size_t count = 30'000;
+    for (std::size_t m = 0; m < count; ++m)
+        out << "<controller id='m" << m << "'><morph source='#m" << m + 1 << "'/></controller>";
+    out << "<controller id='s'><skin source='#m0'/></controller><instance_controller url='#m9'/>"
+           "<controller id='c'><morph source='#d'/></controller><controller id='d'>"
+           "<morph source='#c'/></controller>";
+    out.close();
+    const std::clock_t begin = std::clock();
+    osgSkin::editFile(dae, {}, importer);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 3.0);
+    Assimp::IOStream* const edited = importer.GetIOHandler()->Open(dae.c_str(), "rb");
+    std::string bytes(edited->FileSize(), ' ');
+    edited->Read(bytes.data(), 1, bytes.size());
+    importer.GetIOHandler()->Close(edited);
+    EXPECT_EQ(bytes, "<controller id='s'><skin source='#m" + std::to_string(count) +
+                         "'/></controller><instance_controller url='#m" + std::to_string(count) +
+                         "'/>");
+}
+
+TEST(EditedFile, SaysThatCurvesOfColladaAreReadAsLines) {
+    Assimp::Importer importer;
+    const std::string dae = testing::TempDir() + "curves.dae";
+    const auto noticesOf = [&](const char* times, const char* kind, const char* target) {
+        std::ofstream(dae) << "<source id='t'><float_array id='a' count='3'>" << times
+                           << "</float_array></source><source id='i'><Name_array>" << kind
+                           << "</Name_array></source><sampler id='s'><input semantic='INPUT' "
+                              "source='#t'/></sampler><channel target='"
+                           << target << "'/>";
+        const test::Notices notices;
+        osgSkin::editFile(dae, {}, importer);
+        return notices.text();
+    };
+    const std::string lines = "curves with tangents are read as straight lines",
+                      turns = "turns about several axes are read as the shortest rotations";
+    EXPECT_NE(noticesOf("0 .5 1", "BEZIER", "a/b").find(lines), std::string::npos);
+    EXPECT_NE(noticesOf("0 .5 1", "LINEAR", "a/rotateX.ANGLE").find(turns), std::string::npos);
+    EXPECT_EQ(noticesOf("0 .5 1", "LINEAR", "a/transform"), "");
+    EXPECT_EQ(noticesOf("0 .04 .08", "BEZIER", "a/rotateX.ANGLE"), "");
+}
+
+TEST(EditedFile, RejectsDeepCollada) {
+    Assimp::Importer importer;
+    const std::string dae = testing::TempDir() + "deep.dae";
+    const auto edit = [&](int depth) {
+        std::ofstream out(dae);
+        for (int k = 0; k < 2000; ++k) out << "<a b='>'/><!-- <c> --><![CDATA[<d>]]><e></e>";
+        for (int k = 0; k < depth; ++k) out << "<node>";
+        out.close();
+        osgSkin::editFile(dae, {}, importer);
+    };
+    EXPECT_NO_THROW(edit(1064));
+    expectError([&] { edit(1065); }, "nested more than 1064 deep (option maxDepth)");
 }
 
 TEST(AssimpModels, SaysWhichFormatsLoseTheirBones) {

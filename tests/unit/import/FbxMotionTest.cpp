@@ -358,7 +358,8 @@ TEST(FbxMotion, KeysThatAssimpLosesAreRead) {
     clip->ticksPerSecond = 1000.0;
     clip->tracks.push_back({"middle", {}, {{0.0, glm::quat(1, 0, 0, 0)}}, {}});
     scene.animations.push_back(clip);
-    osgSkin::correctFbx(bytes.str(), "column.fbx", {}, scene);
+    osgSkin::FbxModels models(osgSkin::FbxDocument::read(bytes.str(), "column.fbx"));
+    osgSkin::correctFbx(models, "column.fbx", {}, scene);
     const auto& rotations = scene.animations.at(0)->tracks.at(0).rotations;
     ASSERT_GE(rotations.size(), keys.size());
     EXPECT_NEAR(rotations.back().time, 1000.0, 1e-6);
@@ -368,8 +369,10 @@ TEST(FbxMotion, KeysThatAssimpLosesAreRead) {
 TEST(FbxMotion, UnknownBytesChangeNothing) {
     osgSkin::SourceScene scene;
     scene.addNode("root", -1, glm::dmat4(3.0));
-    for (const char* bytes : {"", "Kaydara FBX Binary  ", "Objects: {", "Objects: { Model: 1"})
-        osgSkin::correctFbx(bytes, "x.fbx", {}, scene);
+    for (const char* bytes : {"", "Objects: {", "Objects: { Model: 1"}) {
+        osgSkin::FbxModels models(osgSkin::FbxDocument::read(bytes, "x.fbx"));
+        osgSkin::correctFbx(models, "x.fbx", {}, scene);
+    }
     ASSERT_EQ(scene.nodes.size(), 1u);
     EXPECT_EQ(scene.nodes[0].matrix, glm::dmat4(3.0));
 }
@@ -381,7 +384,8 @@ TEST(FbxModels, AreConnected) {
         "Model: 2, \"Model::lower\", \"LimbNode\" {\nProperties70: {\n"
         " P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,5,0\n"
         " P: \"RotationPivot\", \"Vector3D\", \"Vector\", \"\",0,2,0\n}\n}\n}\n"
-        "Connections: {\nC: \"OO\",1,0\nC: \"OO\",2,1\n}\n");
+        "Connections: {\nC: \"OO\",1,0\nC: \"OO\",2,1\n}\n",
+        "x.fbx");
     const osgSkin::FbxModels models(document);
     ASSERT_EQ(models.models.size(), 2u);
     ASSERT_EQ(models.roots.size(), 1u);
@@ -406,7 +410,7 @@ osgSkin::FbxRecord curveOf(const std::vector<double>& seconds, const std::vector
     const auto add = [&result](const char* name, const std::vector<double>& list) {
         osgSkin::FbxRecord& record = result.records.emplace_back();
         record.name = name;
-        record.values.emplace_back().list = list;
+        record.numbers = list;
     };
     add("KeyTime", times);
     add("KeyValueFloat", values);

@@ -453,6 +453,8 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     SourceScene result;
     result.bytes = requireReadable(path, limits);
     const std::string fbx = editFile(path, limits, importer);
+    FbxModels models(FbxDocument::read(fbx, path));
+    models.checkNodes(path, limits);
     const aiScene* scene = nullptr;
     std::string reason;
     try {
@@ -461,12 +463,8 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     } catch (const std::exception& error) {
         reason = error.what();
     }
-    if (scene == nullptr || scene->mRootNode == nullptr) {
-        if (fbx.find("Open Asset Import Library") != std::string::npos)
-            reason += "; Assimp does not read binary FBX files that it wrote: export text "
-                      "(assimp export -ffbxa), or glTF";
-        failFile(path, reason.empty() ? "cannot be read" : reason);
-    }
+    if (scene == nullptr || scene->mRootNode == nullptr)
+        failFile(path, (reason.empty() ? "cannot be read" : reason) + adviceFor(fbx));
     for (unsigned m = 0; m < scene->mNumMeshes; ++m)
         if (scene->mMeshes[m] == nullptr) failFile(path, "Assimp returned a null mesh");
     readNodes(*scene, path, limits, result);
@@ -483,7 +481,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
         result.animations.push_back(std::make_shared<const SourceAnimation>(std::move(animation)));
     }
     morphs.warnLosses(path);
-    correctFbx(fbx, path, limits, result);
+    correctFbx(models, path, limits, result);
     joinEqualVertices(result);
     result.toWorld = toWorld(*scene, path);
     result.metresPerUnit = metresPerUnit(*scene, path);

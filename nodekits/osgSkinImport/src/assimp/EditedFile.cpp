@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace osgSkin {
 namespace {
@@ -28,83 +29,182 @@ struct XmlValue {
 };
 
 /// Finds an attribute of the element whose start tag begins at `tag`.
-std::optional<XmlValue> findAttribute(const std::string& xml, std::size_t tag,
-                                      const std::string& name) {
-    const std::size_t end = std::min(xml.find('>', tag), xml.size());
-    for (auto at = xml.find(name, tag); at < end; at = xml.find(name, at + 1)) {
-        const std::size_t sign = xml.find_first_not_of(" \t\r\n", at + name.size());
-        if (sign >= end || xml[sign] != '=' ||
-            std::isspace(static_cast<unsigned char>(xml[at - 1])) == 0)
+std::optional<XmlValue> findAttribute(std::string_view xml, std::size_t tag,
+                                      std::string_view name) {
+    const std::string_view start = xml.substr(0, xml.find_first_of("<>", tag + 1));
+    for (auto at = start.find(name, tag); at != start.npos; at = start.find(name, at + 1)) {
+        const std::size_t sign = start.find_first_not_of(" \t\r\n", at + name.size());
+        if (sign == start.npos || start[sign] != '=' ||
+            std::isspace(static_cast<unsigned char>(start[at - 1])) == 0)
             continue;
-        const std::size_t quote = xml.find_first_not_of(" \t\r\n", sign + 1);
-        if (quote >= end || (xml[quote] != '"' && xml[quote] != '\'')) continue;
-        const std::size_t close = xml.find(xml[quote], quote + 1);
-        if (close < end) return XmlValue{quote + 1, close - quote - 1};
+        const std::size_t quote = start.find_first_not_of(" \t\r\n", sign + 1);
+        if (quote == start.npos || (start[quote] != '"' && start[quote] != '\'')) continue;
+        const std::size_t close = start.find(start[quote], quote + 1);
+        if (close != start.npos) return XmlValue{quote + 1, close - quote - 1};
     }
     return std::nullopt;
 }
 
-/// Removes Collada's morph controllers, on which Assimp's reader fails, so that their meshes stay
-/// as they rest: a skin of a morph becomes one of the morph's own mesh, and where a morph is shown,
-/// its skin or mesh is.
-///
-/// \param path of the file, for errors
-/// \param xml the file, which is changed
-/// \return the number of morph controllers
-/// \throw osgSkin::Error if controllers refer to each other
-std::size_t removeMorphs(const std::string& path, std::string& xml) {
+/// Collada's controllers, of which Assimp's reader fails on morphs.
+class Controllers {
+public:
+    Controllers(const std::string& path, std::string_view xml) : _path(path), _xml(xml) {
+        constexpr std::string_view kOpen = "<controller", kClose = "</controller>";
+        std::size_t next = xml.find(kOpen);
+        for (std::size_t tag = next; tag != xml.npos; tag = next) {
+            next = xml.find(kOpen, tag + 1);
+            std::string_view element = xml.substr(tag, next - tag);
+            const std::size_t end = element.find(kClose);
+            element = element.substr(0, end);
+            const std::size_t skin = element.find("<skin"),
+                              inside = std::min(skin, element.find("<morph"));
+            if (end == element.npos || inside == element.npos) continue;
+            const auto id = findAttribute(xml, tag, "id");
+            const auto source = findAttribute(xml, tag + inside, "source");
+            if (id && source)
+                _known['#' + std::string(textOf(*id))] = {{tag, end + kClose.size()},
+                                                          *source,
+                                                          inside == skin,
+                                                          false,
+                                                          std::string(textOf(*source))};
+        }
+    }
+
+    /// Removes morphs, so that their meshes stay as they rest: a skin of a morph becomes one of
+    /// the morph's own mesh, and where a morph is shown, its skin or mesh is.
+    /// \param[out] result the file's new text, if there are morphs
+    /// \return the number of morphs
+    /// \throw osgSkin::Error if controllers refer to each other
+    std::size_t removeMorphs(std::string& result) {
+        std::map<std::size_t, std::pair<std::size_t, std::string>> edits; // by place; size, text
+        std::size_t morphs = 0;
+        for (auto& [id, controller] : _known) {
+            std::string mesh = follow(std::string(textOf(controller.source)));
+            if (_known.count(mesh) != 0 && controller.isSkin) // Assimp would not return
+                failFile(_path, "controller " + inQuotes(id) + " is a skin of controller " +
+                                    inQuotes(mesh) + ", expected one of a mesh");
+            if (controller.isSkin)
+                edits[controller.source.begin] = {controller.source.size, std::move(mesh)};
+            else
+                edits[controller.whole.begin] = {controller.whole.size, std::string()};
+            morphs += !controller.isSkin;
+        }
+        if (morphs == 0) return 0;
+        constexpr std::string_view kInstance = "<instance_controller";
+        for (auto tag = _xml.find(kInstance); tag != _xml.npos; tag = _xml.find(kInstance, tag + 1))
+            if (const auto url = findAttribute(_xml, tag, "url"))
+                edits[url->begin] = {url->size, follow(std::string(textOf(*url)))};
+        std::size_t copied = 0;
+        for (const auto& [at, edit] : edits) {
+            if (at < copied) continue; // within what is removed
+            result.append(_xml.substr(copied, at - copied)).append(edit.second);
+            copied = at + edit.first;
+        }
+        result.append(_xml.substr(copied));
+        return morphs;
+    }
+
+private:
     struct Controller {
         XmlValue whole, source;
         bool isSkin = false;
+        bool isFollowed = false;
+        std::string target; ///< of its morphs, where it is followed
     };
-    static const std::string close = "</controller>";
-    std::map<std::string, Controller> controllers; // by "#id"
-    for (auto tag = xml.find("<controller"); tag != std::string::npos;
-         tag = xml.find("<controller", tag + 1)) {
-        const std::size_t end = xml.find(close, tag);
-        if (end == std::string::npos) break;
-        const auto element = std::string_view(xml).substr(tag, end - tag);
-        const std::size_t skin = element.find("<skin"),
-                          inside = std::min(skin, element.find("<morph"));
-        if (inside == std::string_view::npos) continue;
-        const auto id = findAttribute(xml, tag, "id");
-        const auto source = findAttribute(xml, tag + inside, "source");
-        if (id && source)
-            controllers['#' + xml.substr(id->begin, id->size)] = {
-                {tag, end + close.size() - tag}, *source, inside == skin};
+
+    std::string_view textOf(const XmlValue& value) const {
+        return _xml.substr(value.begin, value.size);
     }
-    const auto textOf = [&xml](const XmlValue& value) {
-        return xml.substr(value.begin, value.size);
-    };
-    const auto follow = [&](std::string url) {
-        for (std::size_t steps = 0; steps < controllers.size(); ++steps) {
-            const auto found = controllers.find(url);
-            if (found == controllers.end() || found->second.isSkin) break;
-            url = textOf(found->second.source);
+
+    /// What a morph, or the morph that it is of, deforms at last.
+    std::string follow(std::string url) {
+        std::vector<Controller*> passed;
+        for (auto at = _known.find(url); at != _known.end() && !at->second.isSkin;
+             at = _known.find(url)) {
+            url = at->second.target;
+            if (std::exchange(at->second.isFollowed, true)) break;
+            passed.push_back(&at->second);
         }
+        for (Controller* const morph : passed) morph->target = url;
         return url;
-    };
-    std::map<std::size_t, std::pair<std::size_t, std::string>> edits; // by position; size and text
-    std::size_t morphs = 0;
-    for (const auto& [id, controller] : controllers) {
-        std::string mesh = follow(textOf(controller.source));
-        if (controllers.count(mesh) != 0 && controller.isSkin) // Assimp would not return
-            failFile(path, "controller " + inQuotes(id) + " is a skin of controller " +
-                               inQuotes(mesh) + ", expected one of a mesh");
-        if (controller.isSkin)
-            edits[controller.source.begin] = {controller.source.size, std::move(mesh)};
-        else
-            edits[controller.whole.begin] = {controller.whole.size, std::string()};
-        morphs += !controller.isSkin;
     }
-    if (morphs == 0) return 0;
-    for (auto tag = xml.find("<instance_controller"); tag != std::string::npos;
-         tag = xml.find("<instance_controller", tag + 1))
-        if (const auto url = findAttribute(xml, tag, "url"))
-            edits[url->begin] = {url->size, follow(textOf(*url))};
-    for (auto at = edits.rbegin(); at != edits.rend(); ++at) // from the file's end
-        xml.replace(at->first, at->second.first, at->second.second);
-    return morphs;
+
+    const std::string& _path;
+    const std::string_view _xml;
+    std::map<std::string, Controller> _known; ///< by "#id"
+};
+
+/// Refuses depths at which Assimp exhausts the stack.
+void checkDepth(const std::string& path, std::string_view xml, const ReadLimits& limits) {
+    const std::size_t most = limits.depth + 64; // of nodes, and of what is above and in them
+    std::size_t depth = 0, end = 0;             // end of a tag
+    for (auto at = xml.find('<'); at < xml.size(); at = xml.find('<', end)) {
+        end = at + 1;
+        if (xml.compare(at, 4, "<!--") == 0) end = xml.find("-->", end);
+        if (xml.compare(at, 9, "<![CDATA[") == 0) end = xml.find("]]>", end);
+        for (end = xml.find_first_of("<>\"'", end); end < xml.size() && xml[end] != '<';
+             end = xml.find_first_of("<>\"'", end + 1)) {
+            if (xml[end] == '>') break;
+            end = xml.find(xml[end], end + 1); // of a quoted value
+        }
+        if (end == xml.npos) return; // Assimp refuses it
+        const char next = xml[at + 1];
+        if (next == '/') depth -= depth > 0;
+        if (next == '/' || next == '!' || next == '?' || xml[end - 1] == '/') continue;
+        if (++depth > most)
+            failFile(path, "elements are nested more than " + std::to_string(most) +
+                               " deep (option maxDepth)");
+    }
+}
+
+/// Whether an array of times has keys so far apart that it matters what is between them.
+bool isSparse(std::string_view numbers) {
+    constexpr double kDense = 1.0 / 23.0; // seconds
+    std::optional<double> last;
+    for (std::size_t at = 0; (at = numbers.find_first_not_of(" \t\r\n", at)) != numbers.npos;) {
+        const std::size_t end = std::min(numbers.find_first_of(" \t\r\n", at), numbers.size());
+        double time = 0.0;
+        if (!parseNumber(numbers.substr(at, end - at), time)) return false;
+        if (last && time - *last > kDense) return true;
+        last = time;
+        at = end;
+    }
+    return false;
+}
+
+/// Reports what Assimp does not read of a Collada file's animations.
+void warnCurves(const std::string& path, std::string_view xml) {
+    constexpr std::string_view kSource = "<source", kInput = "<input", kArray = "<float_array";
+    constexpr std::size_t kNear = 1000; ///< characters from a source to its array
+    std::map<std::string_view, std::size_t> sources;
+    const auto textOf = [&](std::size_t tag, const char* name) {
+        const auto value = findAttribute(xml, tag, name);
+        return value ? xml.substr(value->begin, value->size) : std::string_view();
+    };
+    for (auto tag = xml.find(kSource); tag != xml.npos; tag = xml.find(kSource, tag + 1))
+        sources.emplace(textOf(tag, "id"), tag);
+    bool isAnySparse = false;
+    for (auto tag = xml.find(kInput); tag != xml.npos && !isAnySparse;
+         tag = xml.find(kInput, tag + 1)) {
+        const std::string_view source = textOf(tag, "source");
+        if (textOf(tag, "semantic") != "INPUT" || source.empty()) continue;
+        const auto times = sources.find(source.substr(1));
+        if (times == sources.end()) continue;
+        const std::size_t array = xml.substr(times->second, kNear).find(kArray);
+        const std::size_t begin =
+            array == xml.npos ? array : xml.find('>', times->second + array) + 1;
+        if (begin < xml.size())
+            isAnySparse = isSparse(xml.substr(begin, xml.find('<', begin) - begin));
+        sources.erase(times); // is looked at once
+    }
+    if (!isAnySparse) return;
+    const auto has = [xml](const char* part) { return xml.find(part) != xml.npos; };
+    if (has("BEZIER") || has("HERMITE") || has("CARDINAL") || has("BSPLINE"))
+        warn(path, "curves with tangents are read as straight lines between their keys: export a "
+                   "key for each frame");
+    if (has(".ANGLE"))
+        warn(path, "turns about several axes are read as the shortest rotations between their "
+                   "keys: export a key for each frame");
 }
 
 /// Gives Assimp a file's bytes from memory, and the files beside it from disk.
@@ -129,16 +229,20 @@ std::string editFile(const std::string& path, const ReadLimits& limits,
                      Assimp::Importer& importer) {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     if (extension != "fbx" && extension != "dae") return {};
-    std::string bytes = readText(path, limits), fbx;
+    std::string bytes = readText(path, limits), fbx, edited;
     if (extension == "fbx") {
         renamePropertyConnections(bytes);
         fbx = bytes;
     } else {
+        checkDepth(path, bytes, limits);
+        warnCurves(path, bytes);
         if (bytes.find("<authoring_tool>Assimp") != std::string::npos)
             warn(path, "written by Assimp, which loses keys of animations or writes their times in "
                        "milliseconds");
-        if (const std::size_t morphs = removeMorphs(path, bytes))
+        if (const std::size_t morphs = Controllers(path, bytes).removeMorphs(edited)) {
             warn(path, std::to_string(morphs) + " morph controllers are not supported; ignored");
+            bytes = std::move(edited);
+        }
     }
     importer.SetIOHandler(new EditedFile(path, std::move(bytes)));
     return fbx;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/FbxDocument.h"
 
+#include "files/FileText.h"
+
 #include <zlib.h>
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace osgSkin {
@@ -18,6 +22,16 @@ namespace {
 struct Malformed {};
 
 constexpr int kMaxDepth = 64;
+constexpr std::size_t kMaxValues = 8; ///< that are kept of a record; a property has 4 to 8
+
+[[noreturn]] void failDepth(const std::string& path) {
+    failFile(path, "records are nested more than " + std::to_string(kMaxDepth) + " deep");
+}
+
+/// Whether an array's numbers are of use.
+bool isReadArray(const std::string& name) {
+    return name == "TransformLink" || name.rfind("Key", 0) == 0; // of a curve
+}
 
 /// Whether a record at a depth is of use.
 bool isNeeded(const std::string& name, int depth, bool isObject) {
@@ -25,7 +39,8 @@ bool isNeeded(const std::string& name, int depth, bool isObject) {
                                            "AnimationStack", "AnimationLayer", "AnimationCurveNode",
                                            "AnimationCurve"};
     if (depth == 0) return name == "Objects" || name == "Connections";
-    if (depth > 1 || !isObject) return true;
+    if (depth == 2) return name == "Properties70" || isReadArray(name);
+    if (depth > 2 || !isObject) return true;
     return std::find(std::begin(kObjects), std::end(kObjects), name) != std::end(kObjects);
 }
 
@@ -34,24 +49,28 @@ bool isWhole(const std::string& name, int depth) {
     return depth != 1 || name != "Geometry";
 }
 
+/// Reads a binary file, and refuses what Assimp would trust: arrays of any stated length, and any
+/// depth.
 class BinaryReader {
 public:
-    explicit BinaryReader(std::string_view bytes)
-        : _bytes(bytes), _at(std::min(kMagic, bytes.size())),
-          _unpacked(kMinUnpacked + kRatio * bytes.size()) {
-        _isWide = number<std::uint32_t>() >= 7500; // 64-bit offsets
-    }
+    BinaryReader(std::string_view bytes, const std::string& path)
+        : _path(path), _bytes(bytes), _at(std::min(kMagic, bytes.size())),
+          _unpacked(kMinUnpacked + kRatio * bytes.size()) {}
 
-    std::vector<FbxRecord> readAll() {
+    std::vector<FbxRecord> readAll() try {
+        _isWide = number<std::uint32_t>() >= 7500; // 64-bit offsets
         std::vector<FbxRecord> result;
-        while (readRecord(result, 0, false)) {
+        while (readRecord(&result, 0, false, _bytes.size())) {
         }
         return result;
+    } catch (const Malformed&) {
+        failFile(_path, "malformed record at byte " + std::to_string(_at) + adviceFor(_bytes));
     }
 
 private:
     static constexpr std::size_t kMagic = 23; ///< bytes before the version
-    static constexpr std::size_t kMinUnpacked = std::size_t(1) << 20, kRatio = 64;
+    static constexpr std::size_t kMinUnpacked = std::size_t(1) << 24, kRatio = 64;
+    static constexpr std::size_t kKept = 4; ///< of one byte in memory
 
     template <typename Number>
     Number number() {
@@ -73,10 +92,9 @@ private:
     }
 
     template <typename Number>
-    std::vector<double> numbers(std::size_t count, std::string_view bytes) {
-        if (bytes.size() / sizeof(Number) < count) throw Malformed();
-        std::vector<double> result(count);
-        for (std::size_t i = 0; i < count; ++i) {
+    static std::vector<double> numbers(std::string_view bytes) {
+        std::vector<double> result(bytes.size() / sizeof(Number));
+        for (std::size_t i = 0; i < result.size(); ++i) {
             Number value;
             std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
             result[i] = static_cast<double>(value);
@@ -84,41 +102,51 @@ private:
         return result;
     }
 
-    std::vector<double> list(char type) {
+    /// \param isKept otherwise only the lengths are checked
+    std::vector<double> list(char type, bool isKept) {
+        const std::size_t width = type == 'd' || type == 'l'   ? 8
+                                  : type == 'f' || type == 'i' ? 4
+                                  : type == 'b' || type == 'c' ? 1
+                                                               : 0;
         const auto count = number<std::uint32_t>(), encoding = number<std::uint32_t>();
         std::string_view bytes = take(number<std::uint32_t>());
-        const std::size_t width = type == 'd' || type == 'l'   ? 8
-                                  : type == 'b' || type == 'c' ? 1
-                                                               : 4;
+        const std::size_t size = count * width;
+        if (width == 0 || encoding > 1 || (encoding == 0 && bytes.size() != size))
+            throw Malformed();
         std::vector<unsigned char> unpacked;
         if (encoding == 1) {
-            if (count * width > _unpacked) throw Malformed();
-            _unpacked -= count * width;
-            unpacked.resize(count * width);
-            auto size = static_cast<uLongf>(unpacked.size());
-            if (uncompress(unpacked.data(), &size,
+            const std::size_t cost = isKept ? kKept * size : size;
+            if (cost > _unpacked)
+                failFile(_path, "its arrays state too many numbers for a file of " +
+                                    std::to_string(_bytes.size()) + " bytes");
+            _unpacked -= cost;
+            if (!isKept) return {};
+            unpacked.resize(size);
+            auto written = static_cast<uLongf>(size);
+            if (uncompress(unpacked.data(), &written,
                            reinterpret_cast<const unsigned char*>(bytes.data()),
-                           static_cast<uLong>(bytes.size())) != Z_OK)
+                           static_cast<uLong>(bytes.size())) != Z_OK ||
+                written != size)
                 throw Malformed();
             bytes = {reinterpret_cast<const char*>(unpacked.data()), size};
         }
+        if (!isKept) return {};
         switch (type) {
         case 'f':
-            return numbers<float>(count, bytes);
+            return numbers<float>(bytes);
         case 'd':
-            return numbers<double>(count, bytes);
+            return numbers<double>(bytes);
         case 'l':
-            return numbers<std::int64_t>(count, bytes);
+            return numbers<std::int64_t>(bytes);
         case 'i':
-            return numbers<std::int32_t>(count, bytes);
+            return numbers<std::int32_t>(bytes);
         default:
-            return numbers<signed char>(count, bytes);
+            return numbers<signed char>(bytes);
         }
     }
 
-    FbxValue value() {
+    FbxValue value(char type) {
         FbxValue result;
-        const char type = take(1)[0];
         const auto setInteger = [&result](std::int64_t integer) {
             result.integer = integer;
             result.number = static_cast<double>(integer);
@@ -144,43 +172,72 @@ private:
             result.number = number<double>();
             break;
         case 'S':
-        case 'R':
             result.text = take(number<std::uint32_t>());
             break;
-        default:
-            result.list = list(type);
+        default: // 'R'
+            take(number<std::uint32_t>());
         }
         return result;
     }
 
-    /// False at the end of a list of records.
-    bool readRecord(std::vector<FbxRecord>& to, int depth, bool isObject) {
+    /// \param to null: the record is only checked
+    /// \param last where the record above ends
+    /// \return false at the end of a list of records
+    bool readRecord(std::vector<FbxRecord>* to, int depth, bool isObject, std::size_t last) {
         const std::size_t end = offset(), values = offset(), size = offset();
         std::string name(take(number<unsigned char>()));
         if (end == 0) return false;
-        if (end > _bytes.size() || end < _at || size > end - _at || depth > kMaxDepth)
-            throw Malformed();
-        if (isNeeded(name, depth, isObject)) {
-            const bool isObjects = depth == 0 && name == "Objects";
-            FbxRecord& record = to.emplace_back();
-            record.name = std::move(name);
-            const std::size_t children = _at + size;
-            for (std::size_t v = 0; v < values && _at < children; ++v)
-                record.values.push_back(value());
-            _at = children;
-            if (isWhole(record.name, depth))
-                while (_at < end && readRecord(record.records, depth + 1, isObjects)) {
-                }
+        if (end > last || end < _at || size > end - _at) throw Malformed();
+        if (depth > kMaxDepth) failDepth(_path);
+        if (to != nullptr && !isNeeded(name, depth, isObject)) to = nullptr;
+        const bool isObjects = depth == 0 && name == "Objects";
+        FbxRecord unused;
+        FbxRecord& record = to != nullptr ? to->emplace_back() : unused;
+        record.name = std::move(name);
+        const std::size_t children = _at + size;
+        if (to != nullptr) record.values.reserve(std::min(values, kMaxValues));
+        for (std::size_t v = 0; v < values && _at < children; ++v) {
+            const char type = take(1)[0];
+            if (std::string_view("CBYILFDSR").find(type) == std::string_view::npos) {
+                record.numbers = list(type, to != nullptr && isReadArray(record.name));
+                continue;
+            }
+            FbxValue next = value(type);
+            if (to != nullptr && record.values.size() < kMaxValues)
+                record.values.push_back(std::move(next));
+        }
+        _at = children;
+        const bool keepsRecords = to != nullptr && isWhole(record.name, depth);
+        while (_at < end &&
+               readRecord(keepsRecords ? &record.records : nullptr, depth + 1, isObjects, end)) {
         }
         _at = end;
         return true;
     }
 
+    const std::string& _path;
     const std::string_view _bytes;
     std::size_t _at = 0;
     std::size_t _unpacked; ///< how many more bytes compressed arrays may have
     bool _isWide = false;
 };
+
+/// Refuses what Assimp would trust in a text file, as BinaryReader does.
+void checkText(std::string_view fbx, const std::string& path) {
+    int depth = 0;
+    for (std::size_t i = 0; i < fbx.size(); ++i) {
+        const char c = fbx[i];
+        if (c == '"' || c == ';') i = std::min(fbx.find(c == '"' ? c : '\n', i + 1), fbx.size());
+        if (c == '{' && ++depth > kMaxDepth) failDepth(path);
+        if (c == '}' && depth > 0) --depth;
+        if (c != '*') continue;
+        std::size_t count = 0; // of an array's numbers
+        const auto [stop, status] =
+            std::from_chars(fbx.data() + i + 1, fbx.data() + fbx.size(), count);
+        if (count > fbx.size() || status == std::errc::result_out_of_range)
+            failFile(path, "an array states more numbers than the file has characters");
+    }
+}
 
 class TextReader {
 public:
@@ -188,7 +245,7 @@ public:
 
     std::vector<FbxRecord> readAll() {
         std::vector<FbxRecord> result;
-        readRecords(result, 0, false);
+        readRecords(result, 0, false, false);
         return result;
     }
 
@@ -204,7 +261,7 @@ private:
         }
     }
 
-    void readRecords(std::vector<FbxRecord>& to, int depth, bool isObject) {
+    void readRecords(std::vector<FbxRecord>& to, int depth, bool isObject, bool keepsLists) {
         if (depth > kMaxDepth) throw Malformed();
         for (skip(true); *_at != '\0' && *_at != '}'; skip(true)) {
             const char* const begin = _at;
@@ -215,14 +272,14 @@ private:
                 const bool isObjects = depth == 0 && name == "Objects";
                 FbxRecord& record = to.emplace_back();
                 record.name = std::move(name);
-                readValues(record);
+                readValues(record, keepsLists);
                 if (*_at != '{') continue;
                 if (!isWhole(record.name, depth)) {
                     skipRecord();
                     continue;
                 }
                 ++_at;
-                readRecords(record.records, depth + 1, isObjects);
+                readRecords(record.records, depth + 1, isObjects, isReadArray(record.name));
                 if (*_at++ != '}') throw Malformed();
             } else {
                 skipRecord();
@@ -231,16 +288,17 @@ private:
     }
 
     /// Reads values up to the end of the line, or of the list behind a comma.
-    void readValues(FbxRecord& record) {
+    void readValues(FbxRecord& record, bool keepsLists) {
         for (skip(false); *_at != '\0' && *_at != '\n' && *_at != '{' && *_at != '}'; skip(false)) {
             if (record.name == "a") { // the numbers of an array
-                if (record.values.empty()) record.values.emplace_back();
                 char* end = nullptr;
-                record.values.front().list.push_back(std::strtod(_at, &end));
+                const double number = std::strtod(_at, &end);
+                if (keepsLists) record.numbers.push_back(number);
                 if (end == _at) throw Malformed();
                 _at = end;
             } else {
-                record.values.push_back(value());
+                FbxValue next = value();
+                if (record.values.size() < kMaxValues) record.values.push_back(std::move(next));
             }
             skip(false);
             if (*_at != ',') continue;
@@ -303,7 +361,7 @@ const std::vector<double>& FbxRecord::list(const std::string& wanted) const {
     const FbxRecord* found = find(wanted);
     if (found == nullptr) return none;
     if (const FbxRecord* const text = found->find("a")) found = text;
-    return found->values.empty() ? none : found->values.front().list;
+    return found->numbers;
 }
 
 const FbxRecord* FbxRecord::property(const std::string& wanted) const {
@@ -314,11 +372,19 @@ const FbxRecord* FbxRecord::property(const std::string& wanted) const {
     return nullptr;
 }
 
-FbxDocument FbxDocument::read(const std::string& bytes) try {
+std::string adviceFor(std::string_view fbx) {
+    return fbx.find("Open Asset Import Library") == std::string_view::npos
+               ? std::string()
+               : "; Assimp does not read binary FBX files that it wrote: export text (assimp "
+                 "export -ffbxa), or glTF";
+}
+
+FbxDocument FbxDocument::read(const std::string& bytes, const std::string& path) try {
     const bool isBinary = bytes.rfind("Kaydara FBX Binary", 0) == 0;
     FbxDocument result;
+    if (!isBinary) checkText(bytes, path);
     for (FbxRecord& record :
-         isBinary ? BinaryReader(bytes).readAll() : TextReader(bytes).readAll()) {
+         isBinary ? BinaryReader(bytes, path).readAll() : TextReader(bytes).readAll()) {
         auto& to = record.name == "Objects" ? result.objects : result.connections;
         std::move(record.records.begin(), record.records.end(), std::back_inserter(to));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/FbxModels.h"
 
+#include "files/FileText.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -226,8 +228,38 @@ void FbxModels::connect(const std::vector<FbxRecord>& connections) {
         for (int i = 0; i < 16; ++i) bind[i / 4][i % 4] = link[static_cast<std::size_t>(i)];
         const double volume = glm::determinant(bind);
         if (!std::isfinite(volume) || volume == 0.0) continue;
-        const auto [first, last] = shown.equal_range(geometry->second);
-        for (auto model = first; model != last; ++model) model->second->binds.emplace(joint, bind);
+        _binds[geometry->second].emplace(joint, bind);
+    }
+    for (const auto& [geometry, model] : shown)
+        if (const auto binds = _binds.find(geometry); binds != _binds.end())
+            model->binds = &binds->second;
+    _curveNodes.clear();
+    _deformers.clear();
+}
+
+void FbxModels::checkNodes(const std::string& path, const ReadLimits& limits) const {
+    struct Open {
+        const FbxModel* model;
+        std::size_t depth;
+    };
+    std::vector<Open> open;
+    std::size_t nodes = 0;
+    const auto add = [&](const std::vector<FbxModel*>& below, std::size_t depth) {
+        nodes += below.size();
+        if (nodes > limits.joints)
+            failFile(path, "has more than " + std::to_string(limits.joints) +
+                               " models, each counted once for each connection to one above "
+                               "(option maxJoints)");
+        for (const FbxModel* const model : below) open.push_back({model, depth});
+    };
+    add(roots, 1);
+    while (!open.empty()) {
+        const auto [model, depth] = open.back();
+        open.pop_back();
+        if (depth > limits.depth)
+            failFile(path, "model " + inQuotes(model->name) + " is nested more than " +
+                               std::to_string(limits.depth) + " deep (option maxDepth)");
+        add(model->children, depth + 1);
     }
 }
 

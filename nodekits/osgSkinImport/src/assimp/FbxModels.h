@@ -6,6 +6,8 @@
 #include "assimp/FbxDocument.h"
 #include "scene/SourceScene.h"
 
+#include <osgSkinImport/ReadLimits>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -29,6 +31,11 @@ using FbxLocal = std::array<glm::dvec3, 3>;
 glm::dmat4 matrixOf(const glm::dvec3& translation, const glm::dquat& rotation,
                     const glm::dvec3& scale);
 
+struct FbxModel;
+
+/// From joints to the scene, as a skin binds them.
+using FbxBinds = std::map<const FbxModel*, glm::dmat4>;
+
 /// A model, FBX's node.
 struct FbxModel {
     explicit FbxModel(const FbxRecord& object);
@@ -48,7 +55,7 @@ struct FbxModel {
     glm::dmat4 geometric; ///< from a mesh to the model's frame
     int order = 0;
     glm::dquat before{1.0, 0.0, 0.0, 0.0}, after{1.0, 0.0, 0.0, 0.0};
-    std::map<const FbxModel*, glm::dmat4> binds; ///< of the joints of its mesh's skin, to the scene
+    const FbxBinds* binds = nullptr; ///< of the joints of its mesh's skin; null: none
     const FbxModel* parent = nullptr;
     std::vector<FbxModel*> children; ///< in the order of connections
     int node = -1;                   ///< index in the scene
@@ -84,6 +91,12 @@ public:
 
     explicit FbxModels(const FbxDocument& document);
 
+    /// Refuses models of which Assimp would make too many nodes, one for each way of connections,
+    /// or that are below themselves.
+    /// \param path of the file, for errors
+    /// \throw osgSkin::Error
+    void checkNodes(const std::string& path, const ReadLimits& limits) const;
+
     std::map<Id, FbxModel> models;
     std::vector<FbxModel*> roots;
     std::vector<FbxStack> stacks;
@@ -96,6 +109,7 @@ private:
     std::map<Id, std::size_t> _stackOf;
     std::map<Id, const FbxRecord*> _deformers;
     std::set<Id> _geometries;
+    std::map<Id, FbxBinds> _binds; ///< of a geometry
 };
 
 } // namespace osgSkin

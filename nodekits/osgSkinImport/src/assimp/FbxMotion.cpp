@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/FbxMotion.h"
 
-#include "assimp/FbxModels.h"
 #include "files/FileText.h"
 
 #include <glm/geometric.hpp>
@@ -18,6 +17,8 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,9 @@ public:
     }
 
     void run() {
+        for (std::size_t a = 0; a < _scene.animations.size(); ++a)
+            _unused.emplace(_scene.animations[a]->name, a);
+        _isFound.resize(_scene.nodes.size(), false);
         findNodes(_document.roots, 0);
         for (FbxStack& stack : _document.stacks) correct(stack);
         correctRest();
@@ -75,19 +79,29 @@ public:
 private:
     /// Finds the models' nodes: Assimp appends a counter to names that are not unique.
     void findNodes(const std::vector<FbxModel*>& models, int above) {
-        const std::vector<int>& nodes = _scene.nodes[static_cast<std::size_t>(above)].children;
-        std::set<int> known;
+        constexpr std::size_t kMaxDigits = 10; // of a counter
+        struct Nodes {
+            std::vector<int> all; ///< in the order of the file
+            std::size_t next = 0;
+        };
+        std::unordered_map<std::string_view, Nodes> byName; // with none or some of its last digits
+        for (const int n : _scene.nodes[static_cast<std::size_t>(above)].children) {
+            std::string_view name = _scene.nodes[static_cast<std::size_t>(n)].name;
+            for (std::size_t digits = 0; digits <= kMaxDigits; ++digits) {
+                byName[name].all.push_back(n);
+                if (name.empty() || name.back() < '0' || name.back() > '9') break;
+                name.remove_suffix(1);
+            }
+        }
         for (FbxModel* const model : models) {
-            const auto found = std::find_if(nodes.begin(), nodes.end(), [&](int n) {
-                const std::string& name = _scene.nodes[static_cast<std::size_t>(n)].name;
-                return known.count(n) == 0 && name.rfind(model->name, 0) == 0 &&
-                       name.find_first_not_of("0123456789", model->name.size()) ==
-                           std::string::npos;
-            });
-            if (found == nodes.end()) continue;
-            known.insert(*found);
-            model->node = *found;
-            findNodes(model->children, *found);
+            Nodes& nodes = byName[model->name];
+            while (nodes.next < nodes.all.size() &&
+                   _isFound[static_cast<std::size_t>(nodes.all[nodes.next])])
+                ++nodes.next;
+            if (nodes.next == nodes.all.size()) continue;
+            model->node = nodes.all[nodes.next];
+            _isFound[static_cast<std::size_t>(model->node)] = true;
+            findNodes(model->children, model->node);
         }
     }
 
@@ -154,14 +168,14 @@ private:
 
     /// The scene's animation that Assimp made of a stack; a new one if it made none.
     SourceAnimation& animationOf(const FbxStack& stack) {
-        for (std::size_t a = 0; a < _scene.animations.size(); ++a)
-            if (_scene.animations[a]->name == stack.name && _known.count(a) == 0) {
-                _known.insert(a);
-                const auto copy = std::make_shared<SourceAnimation>(*_scene.animations[a]);
-                _scene.animations[a] = copy;
-                return *copy;
-            }
-        _known.insert(_scene.animations.size());
+        const auto found = _unused.lower_bound(stack.name); // of several, the first
+        if (found != _unused.end() && found->first == stack.name) {
+            auto& animation = _scene.animations[found->second];
+            const auto copy = std::make_shared<SourceAnimation>(*animation);
+            _unused.erase(found);
+            animation = copy;
+            return *copy;
+        }
         const auto added = std::make_shared<SourceAnimation>();
         added->name = stack.name;
         added->ticksPerSecond = 1000.0;
@@ -171,8 +185,10 @@ private:
 
     void correct(FbxStack& stack) {
         // Models that a moving parent's scale affects move, too.
-        for (auto& [id, model] : _document.models)
-            if (isCompensated(model, stack)) stack.moves[&model];
+        for (const auto& [model, moves] : stack.moves)
+            if (moves.count(Scaling) != 0)
+                for (const FbxModel* const child : model->children)
+                    if (isCompensated(*child, stack)) stack.moves[child];
         if (stack.moves.empty()) return;
         SourceAnimation& animation = animationOf(stack);
         if (stack.unusedLayers > 0)
@@ -187,18 +203,19 @@ private:
                     for (const FbxCurve* curve : curves.axes)
                         if (curve != nullptr) first = std::min(first, curve->keys().front().time);
         }
+        std::map<std::string, std::size_t> tracks; // by node
+        for (std::size_t t = 0; t < animation.tracks.size(); ++t)
+            tracks.emplace(animation.tracks[t].node, t);
         for (const auto& [model, moves] : stack.moves) {
             if (model->node < 0) continue;
-            const auto old = std::find_if(animation.tracks.begin(), animation.tracks.end(),
-                                          [&node = nodeOf(*model)](const SourceTrack& known) {
-                                              return known.node == node.name;
-                                          });
-            const bool isKnown = old != animation.tracks.end();
-            if (!isWrong(*model, moves, stack) && !(isKnown && lacksKeys(*old, moves, stack)))
+            const auto old = tracks.find(nodeOf(*model).name);
+            const bool isKnown = old != tracks.end();
+            if (!isWrong(*model, moves, stack) &&
+                !(isKnown && lacksKeys(animation.tracks[old->second], moves, stack)))
                 continue;
             SourceTrack track = sampled(*model, moves, stack, first, animation.ticksPerSecond);
             if (isKnown)
-                *old = std::move(track);
+                animation.tracks[old->second] = std::move(track);
             else
                 animation.tracks.push_back(std::move(track));
         }
@@ -313,18 +330,22 @@ private:
         }
     }
 
-    /// FbxMoves a model's meshes.
+    /// Moves a model's meshes.
     /// \param toScene from the mesh to the scene
     void moveMeshes(const FbxModel& model, const glm::dmat4& toScene) {
         std::map<std::string, glm::dmat4> binds;
-        for (const auto& [joint, bind] : model.binds)
-            if (joint->node >= 0) binds.emplace(nodeOf(*joint).name, bind);
+        if (model.binds != nullptr) {
+            use(model.binds->size());
+            for (const auto& [joint, bind] : *model.binds)
+                if (joint->node >= 0) binds.emplace(nodeOf(*joint).name, bind);
+        }
         std::vector<std::size_t> still;
         for (std::size_t& index : nodeOf(model).meshes) {
             if (_scene.meshes[index]->bones.empty()) {
                 still.push_back(index);
                 continue;
             }
+            use(_scene.meshes[index]->positions.size());
             const auto mesh = std::make_shared<SourceMesh>(*_scene.meshes[index]);
             for (SourceBone& bone : mesh->bones)
                 if (const auto bind = binds.find(bone.name); bind != binds.end())
@@ -343,21 +364,26 @@ private:
         _scene.nodes[static_cast<std::size_t>(node)].meshes = still;
     }
 
+    void use(std::size_t samples) {
+        if (samples > _samples)
+            failFile(_path, "skins are shown by too many models for a file of its size (option "
+                            "maxSamples)");
+        _samples -= samples;
+    }
+
     FbxModels& _document;
     const std::string& _path;
     SourceScene& _scene;
-    std::size_t _samples;         ///< how many more may be added
-    std::set<std::size_t> _known; ///< animations with a stack
+    std::vector<bool> _isFound;                      ///< [node]
+    std::size_t _samples;                            ///< how many more may be added
+    std::multimap<std::string, std::size_t> _unused; ///< animations without a stack, by name
 };
 
 } // namespace
 
-void correctFbx(const std::string& bytes, const std::string& path, const ReadLimits& limits,
+void correctFbx(FbxModels& models, const std::string& path, const ReadLimits& limits,
                 SourceScene& scene) {
-    const FbxDocument document = FbxDocument::read(bytes);
-    if (document.objects.empty()) return;
-    FbxModels connected(document);
-    Corrector(connected, path, limits, scene).run();
+    if (!models.models.empty()) Corrector(models, path, limits, scene).run();
 }
 
 } // namespace osgSkin

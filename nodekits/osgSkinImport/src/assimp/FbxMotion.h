@@ -2,6 +2,7 @@
 #ifndef OSGSKINIMPORT_ASSIMP_FBXMOTION_H
 #define OSGSKINIMPORT_ASSIMP_FBXMOTION_H
 
+#include "assimp/FbxModels.h"
 #include "scene/SourceScene.h"
 
 #include <osgSkinImport/ReadLimits>
@@ -19,11 +20,11 @@ namespace osgSkin {
 ///   They are sampled at their keys and 30 times a second.
 ///
 /// Of an animation's layers, the first that moves a property is used; others are reported.
-/// \param bytes of the file; nothing is changed if they are not understood
+/// \param models of the file; they find their nodes
 /// \param path of the file, for messages
 /// \param scene as Assimp read it
 /// \throw osgSkin::Error if animations have more samples than the file has room for
-void correctFbx(const std::string& bytes, const std::string& path, const ReadLimits& limits,
+void correctFbx(FbxModels& models, const std::string& path, const ReadLimits& limits,
                 SourceScene& scene);
 
 } // namespace osgSkin
