@@ -31,7 +31,10 @@ constexpr double kMaxWork = 6.0, kLittleWork = 2e6;
 class Factors : public Eigen::SimplicialLDLT<Matrix> {
 public:
     explicit Factors(const Matrix& matrix) { analyzePattern(matrix); }
-    double work() const { return m_nonZerosPerCol.cast<double>().squaredNorm(); }
+    double work() const {
+        const Eigen::Map<const Eigen::VectorXi> first(m_matrix.outerIndexPtr(), cols() + 1);
+        return (first.tail(cols()) - first.head(cols())).cast<double>().squaredNorm();
+    }
 };
 
 double solvingWork(const WeldedMesh& mesh) {

@@ -208,19 +208,23 @@ void warnCurves(const std::string& path, std::string_view xml) {
 }
 
 /// Gives Assimp a file's bytes from memory, and the files beside it from disk.
-class EditedFile : public Assimp::DefaultIOSystem {
+class EditedFile : public Assimp::IOSystem {
 public:
     EditedFile(std::string path, std::string bytes)
         : _path(std::move(path)), _bytes(std::move(bytes)) {}
 
+    bool Exists(const char* file) const override { return _disk.Exists(file); }
+    char getOsSeparator() const override { return _disk.getOsSeparator(); }
+    void Close(Assimp::IOStream* stream) override { _disk.Close(stream); }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (file != _path) return Assimp::DefaultIOSystem::Open(file, mode);
+        if (file != _path) return _disk.Open(file, mode);
         return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(_bytes.data()),
                                           _bytes.size());
     }
 
 private:
     const std::string _path, _bytes;
+    Assimp::DefaultIOSystem _disk; // a final class since Assimp 6
 };
 
 } // namespace
