@@ -19,6 +19,7 @@
 #include <cstring>
 #include <ctime>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -295,13 +296,18 @@ void poseBounds(benchmark::State& state, bench::Kind kind) {
     state.counters["x tight"] = looseness(*model, poses);
 }
 
+/// In the report of any format.
 void describe() {
     const bench::Body& body = bench::body(1);
-    std::printf("Body %s: %zu vertices, %zu joints, %.2f partial joints a vertex, %zu frames\n"
-                "Weights for osgAnimation: %s, %zu weight groups (interpolated where subdivided)\n",
-                body.name.c_str(), body.positions.size(), body.binding.joints.size(),
-                body.partialPerVertex(), body.clip.frames, body.weights.name.c_str(),
-                body.weights.groupCount());
+    std::ostringstream line;
+    line << body.positions.size() << " vertices, " << body.binding.joints.size() << " joints, "
+         << body.partialPerVertex() << " partial joints a vertex, " << body.clip.frames
+         << " frames";
+    benchmark::AddCustomContext("body " + body.name, line.str());
+    benchmark::AddCustomContext("weights for osgAnimation",
+                                body.weights.name + ", " +
+                                    std::to_string(body.weights.groupCount()) +
+                                    " weight groups (interpolated where subdivided)");
 }
 
 } // namespace
@@ -389,6 +395,9 @@ int main(int argc, char** argv) {
     bench::addLoadedFrames();
     bench::addWalkers();
     bench::RatioTable table;
-    benchmark::RunSpecifiedBenchmarks(&table);
+    // Google Benchmark's own reporters write JSON and CSV, to which a table would not belong.
+    const bool isConsole =
+        dynamic_cast<benchmark::ConsoleReporter*>(benchmark::CreateDefaultDisplayReporter());
+    benchmark::RunSpecifiedBenchmarks(isConsole ? &table : nullptr);
     return 0;
 }
