@@ -156,12 +156,43 @@ FbxModels::FbxModels(const FbxDocument& document) {
     connect(document.connections);
 }
 
+/// The curves of a node of curves, and the constants of its axes without one.
+FbxCurves FbxModels::curvesOf(Id node, const std::array<const FbxCurve*, 3>& axes,
+                              const glm::dvec3& own) const {
+    FbxCurves curves;
+    curves.axes = axes;
+    curves.constant = own;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string name = std::string("d|") + char('X' + axis);
+        const FbxRecord* const value = _curveNodes.at(node)->property(name);
+        if (value != nullptr && value->values.size() > 4 && std::isfinite(value->values[4].number))
+            curves.constant[axis] = value->values[4].number;
+    }
+    return curves;
+}
+
+/// Keeps where the joints of clusters were when their geometries were bound.
+/// `deformed` has of a cluster its skin, and of a skin its geometry.
+void FbxModels::addBinds(const std::map<Id, const FbxModel*>& joints,
+                         const std::map<Id, Id>& deformed) {
+    for (const auto& [cluster, joint] : joints) {
+        const auto skin = deformed.find(cluster);
+        const auto geometry = skin == deformed.end() ? skin : deformed.find(skin->second);
+        const std::vector<double>& link = _deformers.at(cluster)->list("TransformLink");
+        if (geometry == deformed.end() || link.size() != 16) continue;
+        glm::dmat4 bind;
+        for (int i = 0; i < 16; ++i) bind[i / 4][i % 4] = link[static_cast<std::size_t>(i)];
+        const double volume = glm::determinant(bind);
+        if (!std::isfinite(volume) || volume == 0.0) continue;
+        _binds[geometry->second].emplace(joint, bind);
+    }
+}
+
 void FbxModels::connect(const std::vector<FbxRecord>& connections) {
-    std::map<Id, Id> layerOfNode, stackOfLayer;
+    std::map<Id, Id> layerOfNode, stackOfLayer, deformed;   // deformed: see addBinds()
     std::map<Id, std::pair<FbxModel*, std::size_t>> target; // of a curve node
     std::map<Id, std::array<const FbxCurve*, 3>> axes;
     std::vector<Id> order;                // of curve nodes
-    std::map<Id, Id> deformed;            // of a cluster its skin, and of a skin its geometry
     std::map<Id, const FbxModel*> joints; // of a cluster
     std::multimap<Id, FbxModel*> shown;   // of a geometry
     for (const FbxRecord& c : connections) {
@@ -205,31 +236,12 @@ void FbxModels::connect(const std::vector<FbxRecord>& connections) {
         if (stack == stackOfLayer.end()) continue;
         const auto [model, channel] = target.at(id);
         const std::size_t s = _stackOf.at(stack->second);
-        FbxCurves curves;
-        curves.axes = axes.at(id);
-        curves.constant = model->own[channel];
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::string name = std::string("d|") + char('X' + axis);
-            const FbxRecord* const value = _curveNodes.at(id)->property(name);
-            if (value != nullptr && value->values.size() > 4 &&
-                std::isfinite(value->values[4].number))
-                curves.constant[axis] = value->values[4].number;
-        }
+        const FbxCurves curves = curvesOf(id, axes.at(id), model->own[channel]);
         if (!stacks[s].moves[model].emplace(channel, curves).second)
             unused[s].insert(layer->second);
     }
     for (const auto& [s, layers] : unused) stacks[s].unusedLayers = layers.size();
-    for (const auto& [cluster, joint] : joints) {
-        const auto skin = deformed.find(cluster);
-        const auto geometry = skin == deformed.end() ? skin : deformed.find(skin->second);
-        const std::vector<double>& link = _deformers.at(cluster)->list("TransformLink");
-        if (geometry == deformed.end() || link.size() != 16) continue;
-        glm::dmat4 bind;
-        for (int i = 0; i < 16; ++i) bind[i / 4][i % 4] = link[static_cast<std::size_t>(i)];
-        const double volume = glm::determinant(bind);
-        if (!std::isfinite(volume) || volume == 0.0) continue;
-        _binds[geometry->second].emplace(joint, bind);
-    }
+    addBinds(joints, deformed);
     for (const auto& [geometry, model] : shown)
         if (const auto binds = _binds.find(geometry); binds != _binds.end())
             model->binds = &binds->second;

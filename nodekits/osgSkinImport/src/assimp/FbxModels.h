@@ -103,6 +103,9 @@ public:
 
 private:
     void connect(const std::vector<FbxRecord>& connections);
+    FbxCurves curvesOf(Id node, const std::array<const FbxCurve*, 3>& axes,
+                       const glm::dvec3& own) const;
+    void addBinds(const std::map<Id, const FbxModel*>& joints, const std::map<Id, Id>& deformed);
 
     std::map<Id, FbxCurve> _curves;
     std::map<Id, const FbxRecord*> _curveNodes;
