@@ -50,7 +50,7 @@ const char* keysHelp() {
            "g      regions              b t  bend, twist ratios\n"
            "j J    next joint, last one\n"
            "k      skeleton             w    wireframe\n"
-           "x      bounds               c    hit shapes\n"
+           "x      bounds               c    hit boxes\n"
            "i      this line below\n"
            "s      OSG's statistics     h    these keys";
 }

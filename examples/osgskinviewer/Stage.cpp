@@ -10,7 +10,7 @@
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/SetMorph>
 #include <osgSkinBind/ShowRegions>
-#include <osgSkinMotion/HitShapes>
+#include <osgSkinMotion/HitBoxes>
 
 #include <osg/Array>
 #include <osg/FrameStamp>
@@ -288,12 +288,12 @@ void Stage::turnNormals(bool on) {
 
 void Stage::showHitShapes(bool on) {
     settings.hitShapes = on;
-    if (!_hitShapes) {
-        _hitShapes = osgSkin::HitShapes::addTo(*_figure.root)->makeLines();
-        _hitShapes->getOrCreateStateSet()->setAttribute(new osg::LineWidth(1.5f));
-        _root->addChild(_hitShapes);
+    if (!_hitBoxes) {
+        _hitBoxes = osgSkin::attach<osgSkin::HitBoxes>(*_figure.root)->makeLines();
+        _hitBoxes->getOrCreateStateSet()->setAttribute(new osg::LineWidth(1.5f));
+        _root->addChild(_hitBoxes);
     }
-    _hitShapes->setNodeMask(on ? ~0u : 0u);
+    _hitBoxes->setNodeMask(on ? ~0u : 0u);
 }
 
 void Stage::tense(bool on) {

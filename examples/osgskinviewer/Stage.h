@@ -108,7 +108,7 @@ public:
     /// Rotates normals with their vertices instead of using surface normals, if the character has
     /// both.
     void turnNormals(bool on);
-    /// Shows the figure's HitShapes, which are fitted when they are first shown.
+    /// Shows the figure's HitBoxes, which are fitted when they are first shown.
     void showHitShapes(bool on);
     /// Tenses or relaxes all muscles.
     void tense(bool on);
@@ -156,7 +156,7 @@ private:
     PlayedExtent _extent;               ///< of the current motion
     double _aspect;                     ///< width / height of the picture
     osg::ref_ptr<osg::StateSet> _state; ///< of the figure
-    osg::ref_ptr<osg::Node> _hitShapes; ///< null: not fitted yet
+    osg::ref_ptr<osg::Node> _hitBoxes;  ///< null: not fitted yet
     osg::ref_ptr<osg::Node> _help;
     osg::ref_ptr<osgText::Text> _status, _morphList;
 };

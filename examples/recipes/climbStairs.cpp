@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinMotion/ClipCharacter>
-#include <osgSkinMotion/GroundFeet>
+#include <osgSkinMotion/ClipPlayer>
+#include <osgSkinMotion/FootPlacement>
 
 #include <osg/ShapeDrawable>
 
@@ -11,14 +11,13 @@ namespace {
 struct Climb : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         auto& place = static_cast<osg::MatrixTransform&>(*node->getParent(0));
-        place.preMult(player->takeRootMatrix(toWorld)); // the player has advanced
+        place.preMult(player->takeRootMatrix()); // the player has advanced
         osg::Matrixd next = place.getMatrix();
         next(3, 2) = 0.364 * osg::clampBetween(-1.0 - next(3, 1), 0.0, 4.32);
         place.setMatrix(next);
         traverse(node, nv);
     }
     osg::ref_ptr<osgSkin::ClipPlayer> player;
-    osg::Matrixd toWorld; ///< from rest space
 };
 
 } // namespace
@@ -26,13 +25,11 @@ struct Climb : osg::NodeCallback {
 /// A figure that walks over a ground: up stairs, or a slope.
 osg::ref_ptr<osg::Node> climbStairs(const std::string& file, osg::Node& ground) {
     const osgSkin::Character character = osgSkin::loadCharacter(file);
-    const auto clips = osgSkin::ClipCharacter::create(*character.root);
-    osgSkin::GroundFeet::addTo(*character.root)->setGround(&ground);
+    osgSkin::attach<osgSkin::FootPlacement>(*character.root)->setGround(&ground);
     const osg::ref_ptr<Climb> climb = new Climb;
-    climb->player = clips->makeBonePlayer();
+    climb->player = osgSkin::attach<osgSkin::ClipPlayer>(*character.root);
     climb->player->setRoot(osgSkin::ClipPlayer::Root::ExtractedWithTurn);
-    climb->player->play({clips->clip("walk")});
-    climb->toWorld = clips->toWorld();
+    climb->player->play({climb->player->clip("walk")});
     const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
     place->addChild(character.root);
     character.root->addUpdateCallback(climb); // after the player

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinMotion/ClipCharacter>
+#include <osgSkinMotion/ClipPlayer>
 
 namespace {
 
@@ -8,10 +8,9 @@ namespace {
 struct Walk : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv); // the player has advanced
-        static_cast<osg::MatrixTransform&>(*node).preMult(player->takeRootMatrix(toWorld));
+        static_cast<osg::MatrixTransform&>(*node).preMult(player->takeRootMatrix());
     }
     osg::ref_ptr<osgSkin::ClipPlayer> player;
-    osg::Matrixd toWorld; ///< from rest space
 };
 
 } // namespace
@@ -19,14 +18,12 @@ struct Walk : osg::NodeCallback {
 /// A figure that walks, with what is played on its upper body: a wave.
 osg::ref_ptr<osg::Node> fadeClips(const std::string& file) {
     const osgSkin::Character character = osgSkin::loadCharacter(file);
-    const auto clips = osgSkin::ClipCharacter::create(*character.root);
     const osg::ref_ptr<Walk> walk = new Walk;
-    walk->player = clips->makeBonePlayer(); // in place of the character's manager
+    walk->player = osgSkin::attach<osgSkin::ClipPlayer>(*character.root); // the manager pauses
     walk->player->setRoot(osgSkin::ClipPlayer::Root::ExtractedWithTurn);
-    walk->toWorld = clips->toWorld();
     if (!character.motions.empty()) {
-        walk->player->play({clips->clip(character.motions.front().name())}, 0.3);
-        osgSkin::ClipPlayer::Layer wave{clips->clip(character.motions.back().name())};
+        walk->player->play({walk->player->clip(character.motions.front().name())}, 0.3);
+        osgSkin::ClipPlayer::Layer wave{walk->player->clip(character.motions.back().name())};
         wave.joints = osgSkin::jointsBelowRole(*wave.clip, "Spine");
         wave.weight = 0.0;
         walk->player->setLayer(3, wave);

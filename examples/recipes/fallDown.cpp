@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinMotion/HitShapes>
+#include <osgSkinMotion/HitBoxes>
 
 #include "Bodies.h"
 
@@ -16,21 +16,21 @@ osg::ref_ptr<osg::Node> fallDown(const std::string& file, const std::shared_ptr<
                                bodies->place(i));
             hits->takePose(pose);
         }
-        osg::ref_ptr<osgSkin::HitShapes> hits;
+        osg::ref_ptr<osgSkin::HitBoxes> hits;
         std::shared_ptr<Bodies> bodies;
     };
     osgSkin::Character figure = osgSkin::loadCharacter(file);
-    osgSkin::HitShapes::Options simple;
+    osgSkin::HitBoxes::Options simple;
     simple.maxShapes = 1;    // of a limb
     simple.smallest = 0.004; // no fingers
     const osg::ref_ptr<Fall> fall = new Fall;
-    fall->hits = osgSkin::HitShapes::addTo(*figure.root, simple);
+    fall->hits = osgSkin::attach<osgSkin::HitBoxes>(*figure.root, simple);
     fall->bodies = bodies;
-    for (const osgSkin::HitShapes::Limb& limb : fall->hits->limbs()) {
+    for (const osgSkin::HitBoxes::Limb& limb : fall->hits->limbs()) {
         const auto& shape = limb.shapes[0];
         const osg::Matrixd& motion = fall->hits->motion(bodies->count());
         const btVector3 half(float(shape.half.x()), float(shape.half.y()), float(shape.half.z()));
-        const bool isBox = shape.kind == osgSkin::HitShapes::Shape::Kind::Box;
+        const bool isBox = shape.kind == osgSkin::HitBoxes::Shape::Kind::Box;
         bodies->add(isBox ? std::shared_ptr<btConvexShape>(new btBoxShape(half))
                           : std::make_shared<btCapsuleShapeZ>(half.x(), 2 * half.z()),
                     1000 * shape.volume(), shape.frame * motion, limb.parent, limb.centre * motion);

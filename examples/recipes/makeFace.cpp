@@ -11,17 +11,16 @@
 
 namespace {
 
-/// Moves a face by ARKit's names, as a camera would, whatever the character calls its own targets.
-struct Live : osg::NodeCallback {
-    explicit Live(osg::Node& character) : face(character) {}
+/// Smiles by ARKit's names, as a camera would, whatever the character calls its own targets.
+struct Smile : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        traverse(node, nv); // before: a clip may move the face, too
         const double time = nv->getFrameStamp()->getSimulationTime();
-        const auto smile = float(0.5 - 0.5 * std::cos(2.0 * time));
-        face.set("mouthSmileLeft", smile);
-        face.set("mouthSmileRight", smile);
+        const auto weight = float(0.5 - 0.5 * std::cos(2.0 * time));
+        face->set("mouthSmileLeft", weight);
+        face->set("mouthSmileRight", weight);
+        traverse(node, nv);
     }
-    osgSkin::FaceControls face;
+    osg::ref_ptr<osgSkin::FaceControls> face;
 };
 
 } // namespace
@@ -32,8 +31,9 @@ osg::ref_ptr<osg::Node> makeFace(const std::string& file) {
     if (character.morphs().empty()) throw std::runtime_error(file + ": has no morph targets");
     for (const std::string& name : character.morphs()) std::cout << name << '\n';
     character.setMorph("surprise", 0.3f); // stays until it is set again
-    const osg::ref_ptr<Live> live = new Live(*character.root);
-    if (!live->face.set("mouthSmileLeft", 0.0f)) std::cout << "it cannot smile\n";
-    character.root->addUpdateCallback(live);
+    const osg::ref_ptr<Smile> smile = new Smile;
+    smile->face = osgSkin::attach<osgSkin::FaceControls>(*character.root);
+    if (!smile->face->set("mouthSmileLeft", 0.0f)) std::cout << "it cannot smile\n";
+    character.root->addUpdateCallback(smile);
     return character.root;
 }

@@ -32,8 +32,8 @@ osg::ref_ptr<osg::Node> receivePoses(const std::string& file,
                        });
     server->add_method("/VMC/Ext/T", "f", [to = to.get(), figure](lo_arg** time, int) {
         if (!to->player && to->pose.hasBody())
-            to->player =
-                osgSkin::LivePlayer::addTo(*figure.root, {to->pose.skeleton(), figure.rest});
+            to->player = osgSkin::attach<osgSkin::LivePlayer>(
+                *figure.root, osgSkin::LiveRetarget(to->pose.skeleton(), figure.rest));
         if (to->player) to->player->receive(time[0]->f, to->pose.rotations(), to->pose.root());
     });
     return scene;

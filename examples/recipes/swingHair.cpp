@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/GlmOsg>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 #include <osgSkinRig/ReadSkeleton>
 
 #include <osg/ShapeDrawable>
@@ -34,6 +34,6 @@ osg::ref_ptr<osg::Node> swingHair(const std::string& file) {
     osgSkin::SpringSettings springs;
     springs.chains.push_back(
         osgSkin::springsBelow(osgSkin::readSkeleton(*character.skeleton), {"hair1"}, hair));
-    (new osgSkin::Springs(springs, character.toWorld))->addTo(*character.skeleton);
+    osgSkin::attach<osgSkin::SpringBones>(*character.root, springs);
     return character.root;
 }

@@ -8,9 +8,15 @@
 
 #include <osgDB/Registry>
 
+USE_SERIALIZER_WRAPPER(osgSkinMotion_ClipPlayer)
 USE_SERIALIZER_WRAPPER(osgSkinMotion_Constraints)
+USE_SERIALIZER_WRAPPER(osgSkinMotion_FaceControls)
+USE_SERIALIZER_WRAPPER(osgSkinMotion_FootPlacement)
 USE_SERIALIZER_WRAPPER(osgSkinMotion_Gaits)
-USE_SERIALIZER_WRAPPER(osgSkinMotion_Springs)
+USE_SERIALIZER_WRAPPER(osgSkinMotion_HitBoxes)
+USE_SERIALIZER_WRAPPER(osgSkinMotion_LivePlayer)
+USE_SERIALIZER_WRAPPER(osgSkinMotion_PlacedBone)
+USE_SERIALIZER_WRAPPER(osgSkinMotion_SpringBones)
 USE_SERIALIZER_WRAPPER(osgSkinMotion_Walker)
 
 extern "C" void wrapper_serializer_library_osgSkinMotion(void) {}

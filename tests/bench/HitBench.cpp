@@ -4,7 +4,7 @@
 #include "CharacterBench.h"
 
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinMotion/HitShapes>
+#include <osgSkinMotion/HitBoxes>
 
 #include <cmath>
 #include <string>
@@ -16,14 +16,15 @@ void fit(benchmark::State& state) {
     const osgSkin::Character character =
         osgSkin::loadCharacter(std::string(OSGSKIN_DATA) + "/thrower.skin");
     for ([[maybe_unused]] auto iteration : state)
-        benchmark::DoNotOptimize(osgSkin::HitShapes::addTo(*character.root));
+        benchmark::DoNotOptimize(osgSkin::attach<osgSkin::HitBoxes>(*character.root));
 }
 
-osg::ref_ptr<osgSkin::HitShapes> fitted(const osgSkin::Character& character,
-                                        benchmark::State& state) {
-    const osg::ref_ptr<osgSkin::HitShapes> hits = osgSkin::HitShapes::addTo(*character.root);
+osg::ref_ptr<osgSkin::HitBoxes> fitted(const osgSkin::Character& character,
+                                       benchmark::State& state) {
+    const osg::ref_ptr<osgSkin::HitBoxes> hits =
+        osgSkin::attach<osgSkin::HitBoxes>(*character.root);
     std::size_t shapes = 0;
-    for (const osgSkin::HitShapes::Limb& limb : hits->limbs()) shapes += limb.shapes.size();
+    for (const osgSkin::HitBoxes::Limb& limb : hits->limbs()) shapes += limb.shapes.size();
     state.counters["limbs"] = static_cast<double>(hits->limbs().size());
     state.counters["shapes"] = static_cast<double>(shapes);
     return hits;
@@ -32,7 +33,7 @@ osg::ref_ptr<osgSkin::HitShapes> fitted(const osgSkin::Character& character,
 void update(benchmark::State& state) {
     const osgSkin::Character character =
         osgSkin::loadCharacter(std::string(OSGSKIN_DATA) + "/thrower.skin");
-    const osg::ref_ptr<osgSkin::HitShapes> hits = fitted(character, state);
+    const osg::ref_ptr<osgSkin::HitBoxes> hits = fitted(character, state);
     for ([[maybe_unused]] auto iteration : state) hits->update();
 }
 
@@ -40,7 +41,7 @@ void update(benchmark::State& state) {
 void pick(benchmark::State& state) {
     const osgSkin::Character character =
         osgSkin::loadCharacter(std::string(OSGSKIN_DATA) + "/thrower.skin");
-    const osg::ref_ptr<osgSkin::HitShapes> hits = fitted(character, state);
+    const osg::ref_ptr<osgSkin::HitBoxes> hits = fitted(character, state);
     double angle = 0.0;
     for ([[maybe_unused]] auto iteration : state) {
         const osg::Vec3d side(2.0 * std::cos(angle), 2.0 * std::sin(angle), 1.0);

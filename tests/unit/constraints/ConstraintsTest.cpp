@@ -9,7 +9,7 @@
 #include <osgSkinMotion/ClipCharacter>
 #include <osgSkinMotion/Constraints>
 #include <osgSkinMotion/SampledClip>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
@@ -22,9 +22,11 @@
 
 namespace {
 
+using osgSkin::attach;
 using osgSkin::Constraint;
 using osgSkin::Constraints;
-using osgSkin::Springs;
+using osgSkin::find;
+using osgSkin::SpringBones;
 
 const std::vector<test::NodeConstraint> kArm = {{"twist", "hand", "roll", "Y", 0.5},
                                                 {"sleeve", "lower", "aim", "PositiveX", 0.7},
@@ -51,7 +53,7 @@ std::string orderOf(osgAnimation::Bone& bone) {
     std::string result;
     for (osg::Callback* c = bone.getUpdateCallback(); c; c = c->getNestedCallback()) {
         if (dynamic_cast<Constraints*>(c)) result += "constraints ";
-        if (dynamic_cast<Springs*>(c)) result += "springs ";
+        if (dynamic_cast<SpringBones*>(c)) result += "springs ";
     }
     return result;
 }
@@ -63,7 +65,7 @@ TEST(Constraints, RefuseCirclesAndNumbersThatCannotBe) {
     EXPECT_EQ(errorOf({makeConstraint("a", "b"), makeConstraint("b", "c")}), "");
     EXPECT_EQ(
         errorOf({makeConstraint("a", "b"), makeConstraint("c", "b"), makeConstraint("b", "a")}),
-        "constraints: \"a\" follows \"b\", which follows it: expected no circle");
+        "\"a\" follows \"b\", which follows it: expected no circle");
     EXPECT_NE(errorOf({makeConstraint("a", "a")}), "");
     const std::string wrong = "constraint of \"a\": expected rotations and an axis that are finite "
                               "and not 0, and a weight of 0 to 1";
@@ -90,13 +92,10 @@ TEST(Constraints, ComeBeforeSprings) {
         test::ConstrainedRig rig(0);
         osgSkin::Character character = osgSkin::loadCharacter(rig.write("order.vrm", kArm));
         osgAnimation::Skeleton& skeleton = *character.skeleton;
-        const osg::ref_ptr<Constraints> constraints = Constraints::of(skeleton);
+        const osg::ref_ptr<Constraints> constraints = find<Constraints>(skeleton);
         ASSERT_TRUE(constraints);
-        if (!springsFirst) (new Springs(springs))->addTo(skeleton);
-        if (springsFirst) {
-            (new Springs(springs))->addTo(skeleton);
-            EXPECT_TRUE(constraints->addTo(skeleton)); // again
-        }
+        attach<SpringBones>(*character.root, springs);
+        if (springsFirst) attach(*character.root, *constraints); // again
         EXPECT_EQ(orderOf(*character.bone("root")), "springs constraints ");
     }
 }
@@ -104,9 +103,8 @@ TEST(Constraints, ComeBeforeSprings) {
 TEST(Constraints, FollowABonePlayer) {
     test::ConstrainedRig rig(4);
     osgSkin::Character character = osgSkin::loadCharacter(rig.write("player.vrm", kArm));
-    const auto clips = osgSkin::ClipCharacter::create(*character.root);
-    const auto player = clips->makeBonePlayer();
-    player->setLayer(0, {clips->clip("move"), 1.0, 0.0});
+    const auto player = attach<osgSkin::ClipPlayer>(*character.root);
+    player->setLayer(0, {player->clip("move"), 1.0, 0.0});
     test::updateAt(*character.root, 0.0);
     test::updateAt(*character.root, 0.5);
     EXPECT_LT(rig.error(*character.skeleton, rig.expected(1, kArm)), 1e-5);
@@ -164,7 +162,7 @@ TEST_P(SavedConstraints, PoseAsBefore) {
     ASSERT_TRUE(read);
     const auto skeletons = test::findNodes<osgAnimation::Skeleton>(*read);
     ASSERT_EQ(skeletons.size(), 1u);
-    const Constraints* const found = Constraints::of(*skeletons[0].node);
+    const Constraints* const found = find<Constraints>(*skeletons[0].node);
     ASSERT_TRUE(found);
     ASSERT_EQ(found->get().size(), 3u);
     for (const double time : {0.0, 1.0}) {

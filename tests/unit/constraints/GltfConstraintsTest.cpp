@@ -21,6 +21,7 @@ namespace {
 using nlohmann::json;
 using osgSkin::Character;
 using osgSkin::Constraints;
+using osgSkin::find;
 using osgSkin::importConstraints;
 using test::ConstrainedRig;
 using List = std::vector<test::NodeConstraint>;
@@ -131,8 +132,7 @@ TEST(GltfConstraints, MatchOnBonesWithOtherAxes) {
         const std::string file = rig.write("axes.vrm", list);
         const osgSkin::RestSkeleton rest = osgSkin::importSkeleton(file);
         const auto skeleton = osgSkin::makeSkeleton(rest);
-        Constraints& constraints = *new Constraints(importConstraints(file));
-        ASSERT_TRUE(constraints.addTo(*skeleton));
+        const auto constraints = osgSkin::attach<Constraints>(*skeleton, importConstraints(file));
         const auto bones = osgSkin::bonesOf(*skeleton);
         const auto bind = rig.expected(0, {}), posed = rig.expected(1, {});
         for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
@@ -143,7 +143,7 @@ TEST(GltfConstraints, MatchOnBonesWithOtherAxes) {
                                            glm::inverse(bind[std::size_t(parent)]));
             osgSkin::rotateBone(*bones.at(rig.nodes[n].name), osgSkin::toOsg(turn));
         }
-        constraints.apply(*skeleton);
+        constraints->apply(*skeleton);
         EXPECT_LT(rig.error(*skeleton, rig.expected(1, list)), kTolerance) << name;
     }
 }
@@ -154,7 +154,7 @@ TEST(GltfConstraints, ComeWithTheMeshOfASkinFile) {
     const std::string file = testing::TempDir() + "constraints.skin";
     std::ofstream(file) << json{{"osgskin", 1}, {"mesh", mesh}, {"bind", "weights"}};
     Character character = osgSkin::loadCharacter(file);
-    const Constraints* const found = Constraints::of(*character.skeleton);
+    const Constraints* const found = find<Constraints>(*character.skeleton);
     ASSERT_TRUE(found);
     ASSERT_EQ(found->get().size(), 1u);
     EXPECT_EQ(found->get()[0].joint.name, "twist");
@@ -165,7 +165,7 @@ TEST(GltfConstraints, AreNoneInOtherFiles) {
     EXPECT_TRUE(importConstraints(ConstrainedRig(1).write("free.vrm", {})).empty());
     EXPECT_TRUE(importConstraints("missing.obj").empty());
     Character character = osgSkin::loadCharacter(ConstrainedRig(1).write("free.vrm", {}));
-    EXPECT_FALSE(Constraints::of(*character.skeleton));
+    EXPECT_FALSE(find<Constraints>(*character.skeleton));
 }
 
 TEST(GltfConstraints, IgnoresCirclesWithANotice) {

@@ -21,7 +21,7 @@ namespace {
 using osgSkin::ClipPlayer;
 using Clip = osg::ref_ptr<const osgSkin::SampledClip>;
 
-constexpr double kFrame = 1.0 / 60.0, kFade = 0.3;
+constexpr double kUpdate = 1.0 / 60.0, kFade = 0.3;
 constexpr double kLow = 0.04; ///< leg lengths above the lowest place of a clip alone
 
 struct Gaits {
@@ -30,14 +30,14 @@ struct Gaits {
 };
 
 /// A character's walk and run, its feet and the way to the world.
-struct Figure {
+struct Walkers {
     Clip walk, run;
     /// Heel, ball and tip of the left and the right sole: a joint, and a point of rest space.
     std::array<std::array<std::pair<std::string, osg::Vec3d>, 3>, 2> soles;
     osg::Matrixd toWorld;
     double leg = 0.0;
 
-    explicit Figure(const Gaits& gaits) {
+    explicit Walkers(const Gaits& gaits) {
         const bool isFile = gaits.walk.find('/') != std::string::npos;
         osgSkin::LoadOptions options;
         if (isFile) {
@@ -71,7 +71,7 @@ struct Figure {
 
 /// Plays a figure's clips, moved along the ground by them, and watches its feet.
 struct Played {
-    explicit Played(const Figure& figure) : _figure(figure) {
+    explicit Played(const Walkers& figure) : _figure(figure) {
         const osg::Matrixd toRest = osg::Matrixd::inverse(figure.toWorld);
         player->setRoot(ClipPlayer::Root::FromFeet,
                         osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), toRest));
@@ -90,9 +90,10 @@ struct Played {
     /// One frame.
     /// \param floor of the balls
     void update(double floor) {
-        player->advance(kFrame);
+        player->advance(kUpdate);
         EXPECT_TRUE(player->pose());
-        _place = player->takeRootMatrix(_figure.toWorld) * _place;
+        _place = osg::Matrixd::inverse(_figure.toWorld) * player->takeRootMatrix() *
+                 _figure.toWorld * _place;
         std::array<osg::Vec3d, 2> balls;
         std::array<double, 2> heights{1e9, 1e9};
         for (std::size_t side = 0; side < 2; ++side)
@@ -107,7 +108,7 @@ struct Played {
         lowest = std::min(heights[0], heights[1]);
         if (_isMoved && balls[low].z() < floor + kLow * _figure.leg) {
             slide += std::hypot(moved.x(), moved.y());
-            seconds += kFrame;
+            seconds += kUpdate;
         }
         ball = balls[low].z();
         _before = balls;
@@ -120,7 +121,7 @@ struct Played {
     double slide = 0.0, seconds = 0.0; ///< of the lower foot while it is on the floor
 
 private:
-    const Figure& _figure;
+    const Walkers& _figure;
     std::array<std::array<osg::ref_ptr<osg::MatrixTransform>, 3>, 2> _soles;
 
     osg::Matrixd _place;
@@ -135,7 +136,7 @@ struct Alone {
     double slide = 0.0, seconds = 0.0;
 };
 
-Alone playAlone(const Figure& figure, const Clip& clip) {
+Alone playAlone(const Walkers& figure, const Clip& clip) {
     Alone result;
     for (const bool isFirst : {true, false}) {
         Played played(figure);
@@ -162,7 +163,7 @@ TEST_P(FadeInStep, KeepsFeetOnTheGround) {
     for (const std::string& file : {gaits.mesh, gaits.walk, gaits.run})
         if (file.find('/') != std::string::npos && !std::filesystem::exists(file))
             GTEST_SKIP() << "needs " << file << ", which is missing";
-    const Figure figure(gaits);
+    const Walkers figure(gaits);
     ASSERT_TRUE(figure.run);
     ASSERT_TRUE(figure.walk->footContacts().hasSteps());
     ASSERT_TRUE(figure.run->footContacts().hasSteps());
@@ -178,7 +179,7 @@ TEST_P(FadeInStep, KeepsFeetOnTheGround) {
         double air = -1e9;
         for (int fade = 0; fade < 40; ++fade) {
             const bool walks = fade % 2 == 0;
-            const int frames = static_cast<int>((kFade + pause(random)) / kFrame);
+            const int frames = static_cast<int>((kFade + pause(random)) / kUpdate);
             for (int i = 0; i < frames; ++i) {
                 played.update(floor);
                 if (walks && !played.player->getLayer(1).clip) air = std::max(air, played.lowest);

@@ -12,9 +12,9 @@
 
 namespace {
 
-using osgSkin::HitShapes;
+using osgSkin::HitBoxes;
 using osgSkin::LimbSurface;
-using Kind = HitShapes::Shape::Kind;
+using Kind = HitBoxes::Shape::Kind;
 
 /// Points of a box's faces, with the edges of their grids, rotated and moved.
 void addBox(const glm::dvec3& half, const glm::dvec3& centre, const glm::dquat& rotation,
@@ -39,9 +39,9 @@ void addBox(const glm::dvec3& half, const glm::dvec3& centre, const glm::dquat& 
 
 const glm::dquat kTurned = glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)));
 
-double sumOf(const std::vector<HitShapes::Shape>& shapes) {
+double sumOf(const std::vector<HitBoxes::Shape>& shapes) {
     double sum = 0.0;
-    for (const HitShapes::Shape& shape : shapes) sum += shape.volume();
+    for (const HitBoxes::Shape& shape : shapes) sum += shape.volume();
     return sum;
 }
 
@@ -50,9 +50,9 @@ double sumOf(const std::vector<HitShapes::Shape>& shapes) {
 TEST(FitShapes, FindsABox) {
     LimbSurface surface;
     addBox({0.1, 0.2, 0.6}, {1, 2, 3}, kTurned, surface);
-    osgSkin::HitShapes::Options options;
+    osgSkin::HitBoxes::Options options;
     options.inside = 1.0;
-    const HitShapes::Shape box = osgSkin::fitShapes({surface}, 1e9, options)[0].at(0);
+    const HitBoxes::Shape box = osgSkin::fitShapes({surface}, 1e9, options)[0].at(0);
     EXPECT_EQ(box.kind, Kind::Box);
     EXPECT_NEAR(box.volume(), 8 * 0.1 * 0.2 * 0.6, 0.05 * 8 * 0.1 * 0.2 * 0.6);
     EXPECT_LT((box.frame.getTrans() - osg::Vec3d(1, 2, 3)).length(), 0.01);
@@ -68,7 +68,7 @@ TEST(FitShapes, FindsACapsule) {
             surface.points.push_back(
                 kTurned * glm::dvec3(radius * std::cos(round), radius * std::sin(round), along));
         }
-    const HitShapes::Shape capsule = osgSkin::fitShape(surface, 1.0);
+    const HitBoxes::Shape capsule = osgSkin::fitShape(surface, 1.0);
     EXPECT_EQ(capsule.kind, Kind::Capsule);
     EXPECT_NEAR(capsule.half.x(), 0.2, 0.005);
     EXPECT_NEAR(capsule.half.z(), 0.5, 0.01);
@@ -92,7 +92,7 @@ TEST(FitShapes, DividesIntoSlices) {
     addBox({0.1, 0.1, 0.5}, {0, 0, -0.5}, {1, 0, 0, 0}, surface);
     addBox({0.1, 0.6, 0.1}, {0, 0, 0.1}, {1, 0, 0, 0}, surface);
     const double volume = 8 * (0.1 * 0.1 * 0.5 + 0.1 * 0.6 * 0.1);
-    HitShapes::Options options;
+    HitBoxes::Options options;
     options.inside = 1.0;
     options.maxShapes = 1;
     const auto whole = osgSkin::fitShapes({surface}, volume, options);

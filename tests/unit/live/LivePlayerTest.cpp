@@ -18,6 +18,7 @@
 
 namespace {
 
+using osgSkin::attach;
 using osgSkin::Character;
 using osgSkin::LivePlayer;
 using osgSkin::LiveRetarget;
@@ -27,7 +28,7 @@ class LivePlayed : public testing::Test {
 protected:
     void SetUp() override {
         character = osgSkin::loadCharacter(test::GltfColumn().save("live.gltf"));
-        player = LivePlayer::addTo(*character.root, LiveRetarget(character.rest, character.rest));
+        player = attach<LivePlayer>(*character.root, LiveRetarget(character.rest, character.rest));
     }
 
     /// \param time of the sender

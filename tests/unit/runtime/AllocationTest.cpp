@@ -198,7 +198,7 @@ TEST(Allocation, NoneInAThousandFramesOfClipLayers) {
     for (std::size_t i = 0; i < 4; ++i)
         player->setLayer(i, {clip, 0.1 * double(i), 1.0, true, 0.5, {"middle", "end"}, i % 2 == 1});
     std::size_t calls = 0;
-    player->addEvent(clip, 0.5, [&calls](osgSkin::ClipPlayer&, std::size_t) { ++calls; });
+    player->addEvent(clip, 0.5, "half", [&calls](osgSkin::ClipPlayer&, std::size_t) { ++calls; });
     const auto run = [&](int frames) {
         for (int i = 0; i < frames; ++i) {
             player->fade(1, i % 50 < 25 ? 1.0 : 0.0, 0.3);

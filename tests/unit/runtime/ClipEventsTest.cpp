@@ -24,7 +24,8 @@ struct Listening {
     std::string reached;
 
     void add(double time, char name) {
-        player->addEvent(clip, time, [this, name](ClipPlayer&, std::size_t) { reached += name; });
+        player->addEvent(clip, time, {name},
+                         [this, name](ClipPlayer&, std::size_t) { reached += name; });
     }
     std::string after(double seconds) {
         reached.clear();
@@ -42,7 +43,7 @@ TEST(ClipEvents, EachTimeIsReachedOnce) {
             std::vector<int> calls(4, 0);
             const double times[] = {0.0, 0.1, 0.25, 0.3999};
             for (std::size_t e = 0; e < 4; ++e)
-                figure.player->addEvent(figure.clip, times[e],
+                figure.player->addEvent(figure.clip, times[e], "any",
                                         [&, e](ClipPlayer&, std::size_t) { ++calls[e]; });
             figure.player->setLayer(0, {figure.clip, 0.05, speed});
             for (int i = 0; i < 400; ++i) {
@@ -95,8 +96,8 @@ TEST(ClipEvents, NeedAWeightAndACallback) {
     Listening figure;
     figure.add(0.1, 'a');
     figure.add(std::nan(""), 'b');
-    figure.player->addEvent(nullptr, 0.1, [](ClipPlayer&, std::size_t) {});
-    figure.player->addEvent(figure.clip, 0.1, {});
+    figure.player->addEvent(nullptr, 0.1, "a", [](ClipPlayer&, std::size_t) {});
+    figure.player->addEvent(figure.clip, 0.1, "a");
     ClipPlayer::Layer layer{figure.clip};
     layer.weight = 0.0;
     figure.player->setLayer(1, layer);
@@ -106,6 +107,16 @@ TEST(ClipEvents, NeedAWeightAndACallback) {
     figure.player->removeEvents(figure.clip);
     EXPECT_EQ(figure.after(0.4), "");
     EXPECT_NEAR(figure.player->getLayer(1).time, 1.0, 1e-9);
+}
+
+TEST(ClipEvents, GetTheirFunctionByName) {
+    Listening figure;
+    for (const double time : {0.1, 0.3}) figure.player->addEvent(figure.clip, time, "step");
+    figure.add(0.2, 'b');
+    figure.player->setLayer(0, {figure.clip});
+    EXPECT_EQ(figure.after(0.4), "b");
+    figure.player->onEvent("step", [&](ClipPlayer&, std::size_t) { figure.reached += 's'; });
+    EXPECT_EQ(figure.after(0.4), "sbs");
 }
 
 TEST(ClipEvents, OfClipsThatPlayOnce) {
@@ -133,7 +144,7 @@ TEST(ClipEvents, OfOneStepAreLimited) {
 TEST(ClipEvents, MayChangeWhatIsPlayed) {
     Listening figure;
     std::vector<std::size_t> layers;
-    figure.player->addEvent(figure.clip, 0.1, [&](ClipPlayer& player, std::size_t layer) {
+    figure.player->addEvent(figure.clip, 0.1, "a", [&](ClipPlayer& player, std::size_t layer) {
         layers.push_back(layer);
         player.removeEvents(figure.clip);
         figure.add(0.3, 'c');

@@ -4,7 +4,6 @@
 #include "BentClip.h"
 #include "UpdateAt.h"
 
-#include <osgSkinMotion/ClipCharacter>
 #include <osgSkinMotion/ClipPlayer>
 #include <osgSkinMotion/RotateBone>
 
@@ -109,8 +108,7 @@ TEST(ClipOnPart, MovesTheJointsBelowAlone) {
 TEST(BonePlayer, MovesBonesAndSkinAsTheManagerDid) {
     const osgSkin::Clip clip = someClip(12, 0.8);
     Character expected(clip), character(clip);
-    const auto clips = osgSkin::ClipCharacter::create(*character.scene);
-    const osg::ref_ptr<ClipPlayer> player = clips->makeBonePlayer();
+    const osg::ref_ptr<ClipPlayer> player = osgSkin::attach<ClipPlayer>(*character.scene);
     player->play({SampledClip::create(clip, character.rig)});
     for (const double time : {0.0, 2.0 * kFrame, 7.0 * kFrame}) {
         expected.update(time);
@@ -141,9 +139,7 @@ TEST(BonePlayer, LeavesBonesToTheirOwnCallbacksAfterwards) {
     const osgSkin::Clip clip = someClip(12, 0.8);
     Character plain(clip), character(clip);
     for (Character* each : {&plain, &character})
-        osgSkin::ClipCharacter::create(*each->scene)
-            ->makeBonePlayer()
-            ->play({SampledClip::create(clip, each->rig)});
+        osgSkin::attach<ClipPlayer>(*each->scene)->play({SampledClip::create(clip, each->rig)});
     osgAnimation::Bone* middle = Character::findBone(*character.skeleton, "middle");
     middle->addUpdateCallback(new Bend);
     for (const double time : {0.0, 0.1}) {
@@ -163,8 +159,7 @@ TEST(BonePlayer, LeavesBonesToTheirOwnCallbacksAfterwards) {
 TEST(BonePlayer, ExtractsRootMotion) {
     const osgSkin::Clip clip = someClip(12, 0.8);
     Character character(clip);
-    const osg::ref_ptr<ClipPlayer> player =
-        osgSkin::ClipCharacter::create(*character.scene)->makeBonePlayer();
+    const osg::ref_ptr<ClipPlayer> player = osgSkin::attach<osgSkin::ClipPlayer>(*character.scene);
     player->setRoot(ClipPlayer::Root::Extracted, osg::Vec3d(0, 1, 0));
     player->play({SampledClip::create(clip, character.rig)});
     const auto rootAt = [&](double time) {

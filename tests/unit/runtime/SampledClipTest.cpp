@@ -21,30 +21,30 @@ TEST(SampledClip, FindsTheSamplesAtATime) {
     const auto clip = SampledClip::create(someClip(10, 0.3), tubeRig());
     ASSERT_EQ(clip->sampleCount(), 10u);
     EXPECT_NEAR(clip->duration(), 10.0 * kFrame, 1e-12);
-    const auto expectPlace = [&](double time, bool loop, std::size_t from, std::size_t to,
-                                 double share) {
+    const auto expectInterval = [&](double time, bool loop, std::size_t from, std::size_t to,
+                                    double share) {
         SCOPED_TRACE(time);
-        const SampledClip::Place place = clip->place(time, loop);
-        EXPECT_EQ(place.from, from);
-        EXPECT_EQ(place.to, to);
-        EXPECT_NEAR(place.share, share, 1e-6);
+        const SampledClip::Interval interval = clip->intervalAt(time, loop);
+        EXPECT_EQ(interval.from, from);
+        EXPECT_EQ(interval.to, to);
+        EXPECT_NEAR(interval.share, share, 1e-6);
     };
     for (std::size_t i = 0; i < 10; ++i)
         for (const double loops : {-3.0, 0.0, 1000.0}) {
-            const SampledClip::Place place =
-                clip->place(loops * clip->duration() + double(i) * kFrame, true);
-            EXPECT_EQ(place.from, i);
-            EXPECT_EQ(place.share, 0.0);
+            const SampledClip::Interval interval =
+                clip->intervalAt(loops * clip->duration() + double(i) * kFrame, true);
+            EXPECT_EQ(interval.from, i);
+            EXPECT_EQ(interval.share, 0.0);
         }
-    expectPlace(9.5 * kFrame, true, 9, 0, 0.5);
-    expectPlace(-0.25 * kFrame, true, 9, 0, 0.75);
-    expectPlace(9.5 * kFrame, false, 9, 9, 0.0);
-    expectPlace(-1.0, false, 0, 0, 0.0);
-    expectPlace(std::numeric_limits<double>::quiet_NaN(), true, 0, 0, 0.0);
-    expectPlace(std::numeric_limits<double>::infinity(), false, 0, 0, 0.0);
+    expectInterval(9.5 * kFrame, true, 9, 0, 0.5);
+    expectInterval(-0.25 * kFrame, true, 9, 0, 0.75);
+    expectInterval(9.5 * kFrame, false, 9, 9, 0.0);
+    expectInterval(-1.0, false, 0, 0, 0.0);
+    expectInterval(std::numeric_limits<double>::quiet_NaN(), true, 0, 0, 0.0);
+    expectInterval(std::numeric_limits<double>::infinity(), false, 0, 0, 0.0);
     const auto single = SampledClip::create(someClip(1, 0.3), tubeRig());
-    EXPECT_EQ(single->place(17.3, true).from, 0u);
-    EXPECT_EQ(single->place(-17.3, true).to, 0u);
+    EXPECT_EQ(single->intervalAt(17.3, true).from, 0u);
+    EXPECT_EQ(single->intervalAt(-17.3, true).to, 0u);
 }
 
 TEST(SampledClip, BlendMatchesSlerp) {

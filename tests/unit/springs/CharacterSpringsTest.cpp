@@ -8,7 +8,7 @@
 #include <osgSkinCharacter/CharacterOption>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinMotion/ClipCharacter>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,9 @@ namespace {
 
 using nlohmann::json;
 using osgSkin::Character;
+using osgSkin::find;
 using osgSkin::LoadOptions;
-using osgSkin::Springs;
+using osgSkin::SpringBones;
 
 /// A column whose upper two boxes swing, in a clip that does not move them.
 test::GltfColumn makeHair() {
@@ -48,7 +49,7 @@ double leanAfterMove(Character& character, int frames = 20) {
 
 TEST(CharacterSprings, SwingInALoadedVrm) {
     Character character = osgSkin::loadCharacter(makeHair().save("character.vrm"));
-    ASSERT_TRUE(Springs::of(*character.skeleton));
+    ASSERT_TRUE(find<SpringBones>(*character.skeleton));
     EXPECT_LT(leanAfterMove(character), -0.05);
 }
 
@@ -69,7 +70,7 @@ TEST(CharacterSprings, AreOffByOption) {
     LoadOptions options;
     EXPECT_TRUE(setOption(options, "springs", "none"));
     Character character = osgSkin::loadCharacter(makeHair().save("stiff.vrm"), options);
-    EXPECT_FALSE(Springs::of(*character.skeleton));
+    EXPECT_FALSE(find<SpringBones>(*character.skeleton));
     EXPECT_NEAR(leanAfterMove(character), 0.0, 1e-6);
     EXPECT_THROW(setOption(options, "springs", "loose"), osgSkin::Error);
 }
@@ -78,10 +79,11 @@ TEST(CharacterSprings, SwingWithABonePlayer) {
     Character character = osgSkin::loadCharacter(makeHair().save("played.vrm"));
     const test::Notices notices;
     const auto clips = osgSkin::ClipCharacter::create(*character.root);
-    EXPECT_TRUE(notices.say("its springs swing with makeBonePlayer(), not in copies without bones"))
-        << notices.text();
-    const auto player = clips->makeBonePlayer();
-    player->play({clips->clip("nod")}, 0.0);
+    EXPECT_FALSE(notices.say("springs")) << notices.text();
+    clips->makeInstance();
+    EXPECT_TRUE(notices.say("springs do not swing in copies without bones")) << notices.text();
+    const auto player = osgSkin::attach<osgSkin::ClipPlayer>(*character.root);
+    player->play({player->clip("nod")}, 0.0);
     EXPECT_LT(leanAfterMove(character), -0.05);
 }
 
@@ -122,7 +124,7 @@ TEST(CharacterSprings, AreReadFromASkinFile) {
     const test::Notices notices;
     Character character = osgSkin::loadCharacter(skinFile(json::array({spring}), mesh));
     EXPECT_FALSE(notices.say("unknown")) << notices.text();
-    const Springs* const found = Springs::of(*character.skeleton);
+    const SpringBones* const found = find<SpringBones>(*character.skeleton);
     ASSERT_TRUE(found);
     const osgSkin::SpringSettings& settings = found->getSettings();
     ASSERT_EQ(settings.chains.size(), 1u);
@@ -141,8 +143,8 @@ TEST(CharacterSprings, AreReadFromASkinFile) {
 
 TEST(CharacterSprings, OfASkinFilesMeshCanBeSwitchedOff) {
     const std::string mesh = makeHair().save("named.vrm");
-    EXPECT_TRUE(Springs::of(*osgSkin::loadCharacter(skinFile("file", mesh)).skeleton));
-    EXPECT_FALSE(Springs::of(*osgSkin::loadCharacter(skinFile("none", mesh)).skeleton));
+    EXPECT_TRUE(find<SpringBones>(*osgSkin::loadCharacter(skinFile("file", mesh)).skeleton));
+    EXPECT_FALSE(find<SpringBones>(*osgSkin::loadCharacter(skinFile("none", mesh)).skeleton));
 }
 
 TEST(CharacterSprings, WithErrorsInASkinFileAreRefused) {

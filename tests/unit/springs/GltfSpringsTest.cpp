@@ -6,7 +6,7 @@
 #include <osgSkin/BoneReader>
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ImportSprings>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <gtest/gtest.h>
 
@@ -228,7 +228,9 @@ TEST(GltfSprings, SwingTheBonesOfTheFile) {
         const osgSkin::ImportedRig rig = osgSkin::importRig(file);
         const osg::ref_ptr<osg::MatrixTransform> root = new osg::MatrixTransform;
         root->addChild(rig.skeleton);
-        ASSERT_TRUE((new osgSkin::Springs(importSprings(file), rig.toWorld))->addTo(*rig.skeleton));
+        const osg::ref_ptr<osgSkin::SpringBones> springs =
+            new osgSkin::SpringBones(importSprings(file), rig.toWorld);
+        osgSkin::attach(*rig.skeleton, *springs);
         double least = 1.0, last = 0.0;
         for (int i = 0; i < 240; ++i) {
             root->setMatrix(osg::Matrixd::translate(std::min(i, 60) * 0.08, 0, 0));

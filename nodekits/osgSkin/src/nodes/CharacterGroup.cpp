@@ -17,7 +17,8 @@ namespace {
 
 /// Whether a callback touches nothing but its character.
 bool isOwn(const osg::Callback& callback) {
-    if (std::strcmp(callback.libraryName(), "osgSkin") == 0) return true;
+    for (const char* kit : {"osgSkin", "osgSkinMotion"})
+        if (std::strcmp(callback.libraryName(), kit) == 0) return true;
     if (std::strcmp(callback.libraryName(), "osgAnimation") != 0) return false;
     constexpr std::array<const char*, 4> kOwn = {"UpdateBone", "UpdateSkeleton",
                                                  "UpdateMatrixTransform", "BasicAnimationManager"};

@@ -13,6 +13,7 @@
 #include <osgSkinCharacter/LoadOptions>
 #include <osgSkinImport/ReadLimits>
 #include <osgSkinImport/ReadScene>
+#include <osgSkinMotion/ClipPlayer>
 #include <osgSkinRig/ReadSkeleton>
 
 #include <osg/MatrixTransform>
@@ -107,10 +108,15 @@ void putFirst(const std::string& wanted, const std::string& file,
                 "; motion files are not carried over to scenes that OpenSceneGraph reads");
 }
 
-/// Replaces the scene's manager by one on the root.
+/// Replaces the scene's manager by one on the root, but where a ClipPlayer plays.
 void manageFromRoot(const Managers::Entry& entry, const osgAnimation::AnimationList& clips,
                     Character& character) {
     const osg::ref_ptr<osg::Group> scene = character.root;
+    for (const auto& clip : clips) character.motions.emplace_back().animation = clip;
+    if (find<ClipPlayer>(*scene)) { // a saved one, which plays in the manager's place
+        character.manager = entry.manager;
+        return;
+    }
     entry.node->removeUpdateCallback(entry.manager);
     character.root = new osg::Group;
     character.root->setName(scene->getName());
@@ -119,7 +125,6 @@ void manageFromRoot(const Managers::Entry& entry, const osgAnimation::AnimationL
     const osg::ref_ptr<AutoPlayManager> manager = new AutoPlayManager;
     manager->registerAnimations(clips);
     character.manager = manager;
-    for (const auto& clip : clips) character.motions.emplace_back().animation = clip;
     character.root->setUpdateCallback(character.manager);
     character.manager->playAnimation(clips.front());
 }

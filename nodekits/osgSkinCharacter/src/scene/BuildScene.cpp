@@ -20,7 +20,7 @@
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinMotion/Constraints>
 #include <osgSkinMotion/Prop>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 #include <osgSkinRig/BodyDirections>
 #include <osgSkinRig/Clip>
 #include <osgSkinRig/ForwardKinematics>
@@ -349,10 +349,9 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         character.pose(character.motions.front(), 0);
     }
     play(character);
-    if (!source.constraints.empty())
-        (new Constraints(source.constraints))->addTo(*character.skeleton);
+    if (!source.constraints.empty()) attach<Constraints>(*character.root, source.constraints);
     if (!source.springs.chains.empty() && source.options.springs.value_or(true))
-        (new Springs(source.springs, character.toWorld))->addTo(*character.skeleton);
+        attach<SpringBones>(*character.root, source.springs);
 }
 
 } // namespace osgSkin

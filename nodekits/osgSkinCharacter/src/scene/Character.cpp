@@ -9,9 +9,10 @@
 #include <osgSkin/UpdateDeformableSkin>
 #include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinMotion/ApplyFrame>
+#include <osgSkinMotion/ClipPlayer>
 #include <osgSkinMotion/Constraints>
 #include <osgSkinMotion/MakeAnimation>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <osg/FrameStamp>
 #include <osgAnimation/Channel>
@@ -36,7 +37,8 @@ void Character::pose(const CharacterMotion& motion, std::size_t frame) {
                     std::to_string(motion.clip.frames) + " samples, found frame " +
                     std::to_string(frame));
     applyFrame(motion.clip, rest, frame, *skeleton);
-    if (Constraints* const constraints = Constraints::of(*skeleton)) constraints->apply(*skeleton);
+    if (Constraints* const constraints = find<Constraints>(*skeleton))
+        constraints->apply(*skeleton);
     poseSkins(*this);
 }
 
@@ -50,7 +52,7 @@ void Character::poseAt(const CharacterMotion& motion, double seconds) {
     }
     osgUtil::UpdateVisitor visitor;
     visitor.setFrameStamp(new osg::FrameStamp);
-    Springs* const springs = Springs::of(*skeleton);
+    SpringBones* const springs = find<SpringBones>(*skeleton);
     const bool swings = springs && springs->getEnabled();
     if (swings) springs->setEnabled(false); // they need the frames before
     root->traverse(visitor);                // without the manager, which would play on
@@ -89,6 +91,10 @@ void Character::play(const std::string& motion) {
     for (const CharacterMotion& each : motions) {
         known.push_back(each.name());
         if (each.name() != motion) continue;
+        if (ClipPlayer* const player = find<ClipPlayer>(*root)) {
+            player->play({player->clip(motion)}, 0.0);
+            return;
+        }
         manager->stopAll();
         manager->playAnimation(each.animation);
         return;

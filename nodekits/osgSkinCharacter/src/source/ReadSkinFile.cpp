@@ -11,7 +11,7 @@
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinImport/ImportSprings>
 #include <osgSkinImport/ShareImages>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <glm/gtc/quaternion.hpp>
 #include <osg/BoundingBox>

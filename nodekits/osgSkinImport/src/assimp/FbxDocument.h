@@ -36,7 +36,7 @@ struct FbxRecord {
     const FbxRecord* property(const std::string& name) const;
 };
 
-/// What Assimp does not tell about an FBX file: objects of the few kinds that place and move
+/// What Assimp does not expose of an FBX file: objects of the few kinds that place and move
 /// models, and all connections.
 struct FbxDocument {
     /// Models, deformers, and stacks, layers, nodes and curves of animations; geometries without

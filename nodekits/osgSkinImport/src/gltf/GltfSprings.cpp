@@ -5,7 +5,7 @@
 #include "files/FileText.h"
 #include "gltf/GltfMembers.h"
 
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <utility>
 

@@ -234,7 +234,7 @@ glm::dmat4 localMatrix(const SourceTrack* track, const SourceNode& node, const M
     return result;
 }
 
-/// Drops moves that are none.
+/// Drops translation tracks that are constant.
 void dropStill(Motion& motion) {
     const double figure = unitScale(motion.skeleton);
     for (auto move = motion.moves.begin(); move != motion.moves.end();) {

@@ -6,7 +6,7 @@
 #include "scene/SceneBind.h"
 #include "scene/SceneSkeleton.h"
 
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <map>
 #include <utility>

@@ -44,33 +44,6 @@ inline std::map<std::string, osgAnimation::Bone*> bonesBelow(osg::Node& node) {
     return find.bones;
 }
 
-/// The callback of a class that some bone has; null where none has.
-template <typename Callback>
-Callback* callbackOf(osgAnimation::Skeleton& skeleton) {
-    for (const auto& [name, bone] : bonesOf(skeleton))
-        for (osg::Callback* c = bone->getUpdateCallback(); c; c = c->getNestedCallback())
-            if (auto* found = dynamic_cast<Callback*>(c)) return found;
-    return nullptr;
-}
-
-/// Adds a callback that acts after all others of the bones, in place of one of its class.
-/// \return false where the skeleton has no bone
-template <typename Callback>
-bool addLast(Callback& callback, osgAnimation::Skeleton& skeleton) {
-    const osg::ref_ptr<Callback> other = callbackOf<Callback>(skeleton);
-    osgAnimation::Bone* last = nullptr; // of the topmost bones: all others are posed before it
-    for (const auto& [name, bone] : bonesOf(skeleton)) {
-        if (other) bone->removeUpdateCallback(other);
-        if (bone->getBoneParent()) continue;
-        if (!last || skeleton.getChildIndex(bone) > skeleton.getChildIndex(last)) last = bone;
-    }
-    if (!last) return false;
-    // The first callback is the last to act, because each calls the next one before.
-    callback.setNestedCallback(last->getUpdateCallback());
-    last->setUpdateCallback(&callback);
-    return true;
-}
-
 /// The skeleton at or above a traversed node; null where there is none.
 /// \param[out] path to the skeleton
 inline osgAnimation::Skeleton* skeletonAbove(const osg::NodeVisitor& nv, osg::NodePath& path) {

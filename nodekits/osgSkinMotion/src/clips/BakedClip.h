@@ -31,10 +31,10 @@ public:
         std::vector<osg::BoundingBox> sweeps; ///< [sample * kParts + part]; see sweptBounds()
 
         /// A box that holds the skin at a position in the clip; not valid where none is known.
-        const osg::BoundingBox& boundsAt(const SampledClip::Place& place) const {
-            if (!(place.share > 0.0)) return bounds[place.from];
-            const auto part = static_cast<std::size_t>(place.share * double(kParts));
-            return sweeps[place.from * kParts + std::min(part, kParts - 1)];
+        const osg::BoundingBox& boundsAt(const SampledClip::Interval& interval) const {
+            if (!(interval.share > 0.0)) return bounds[interval.from];
+            const auto part = static_cast<std::size_t>(interval.share * double(kParts));
+            return sweeps[interval.from * kParts + std::min(part, kParts - 1)];
         }
     };
 

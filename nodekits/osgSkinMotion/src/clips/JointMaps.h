@@ -44,8 +44,8 @@ inline RestSkeleton restOf(const SampledClip& clip) {
 /// The joints' maps including those above them, in rest space.
 /// \param joints one for each sample, parents first
 /// \param whole resized to one for each joint
-inline void findWhole(const std::vector<SampledClip::Joint>& joints, const JointSample* samples,
-                      std::vector<JointMap>& whole) {
+inline void localToModel(const std::vector<SampledClip::Joint>& joints, const JointSample* samples,
+                         std::vector<JointMap>& whole) {
     whole.resize(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const JointMap own = mapOf(samples[j], joints[j].centre);

@@ -93,7 +93,7 @@ BoneSampler::BoneSampler(const osgAnimation::Animation& animation, osgAnimation:
                            toGlm(bind.getTrans()), up, up});
     }
     _pose = Pose(_joints);
-    const Constraints* const constraints = Constraints::of(skeleton);
+    const Constraints* const constraints = find<Constraints>(skeleton);
     if (!constraints) return;
     _constraints = new Constraints(constraints->get());
     _constrained = new osgAnimation::Skeleton;
@@ -275,7 +275,7 @@ int SampledClip::find(const std::string& joint) const {
     return -1;
 }
 
-SampledClip::Place SampledClip::place(double time, bool loop) const noexcept {
+SampledClip::Interval SampledClip::intervalAt(double time, bool loop) const noexcept {
     const std::size_t count = sampleCount();
     double at = time / _step;
     if (!std::isfinite(at)) at = 0.0;
@@ -289,7 +289,7 @@ SampledClip::Place SampledClip::place(double time, bool loop) const noexcept {
         at -= whole * std::floor(at / whole);
         if (at >= whole) at = 0.0;
     }
-    Place result;
+    Interval result;
     result.from = std::min(static_cast<std::size_t>(at), count - 1);
     result.share = at - static_cast<double>(result.from);
     result.to = result.share > 0.0 ? (result.from + 1) % count : result.from;
@@ -297,7 +297,7 @@ SampledClip::Place SampledClip::place(double time, bool loop) const noexcept {
 }
 
 void SampledClip::evaluate(double time, bool loop, JointSample* joints) const noexcept {
-    const Place at = place(time, loop);
+    const Interval at = intervalAt(time, loop);
     const JointSample* from = sample(at.from);
     const JointSample* to = sample(at.to);
     const SampleBlend blended(at.share);

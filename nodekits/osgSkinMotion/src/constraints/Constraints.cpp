@@ -2,10 +2,10 @@
 #include <osgSkinMotion/Constraints>
 
 #include "bones/BoneCallbacks.h"
+#include "bones/Figure.h"
 
 #include <osgSkin/Error>
 #include <osgSkinMotion/RotateBone>
-#include <osgSkinMotion/Springs>
 
 #include <osg/NodeVisitor>
 #include <osg/observer_ptr>
@@ -177,19 +177,23 @@ Constraints::Constraints(std::vector<Constraint> constraints) {
 }
 
 Constraints::Constraints(const Constraints& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+    : osg::Object(other, copyop), osg::Callback(other, copyop), Attachment(other, copyop),
       _constraints(other._constraints) {}
 
 Constraints::~Constraints() = default;
 
-Constraints* Constraints::of(osgAnimation::Skeleton& skeleton) {
-    return callbackOf<Constraints>(skeleton);
+osg::ref_ptr<Constraints> Constraints::create(osg::Node& root,
+                                              std::vector<Constraint> constraints) {
+    const Figure figure = findFigure(root, "constraints");
+    try {
+        return new Constraints(std::move(constraints));
+    } catch (const Error& error) {
+        figure.fail(error.what());
+    }
 }
 
-bool Constraints::addTo(osgAnimation::Skeleton& skeleton) {
-    if (!addLast(*this, skeleton)) return false;
-    if (const osg::ref_ptr<Springs> springs = Springs::of(skeleton)) springs->addTo(skeleton);
-    return true;
+osg::Node& Constraints::nodeFor(osg::Node& root) const {
+    return topBoneOf(findFigure(root, "constraints"));
 }
 
 void Constraints::set(std::vector<Constraint> constraints) {
@@ -197,7 +201,7 @@ void Constraints::set(std::vector<Constraint> constraints) {
     const std::vector<bool> isCircular = inCircles(constraints);
     for (std::size_t i = 0; i < constraints.size(); ++i)
         if (isCircular[i])
-            throw Error("constraints: \"" + constraints[i].joint.name + "\" follows \"" +
+            throw Error('"' + constraints[i].joint.name + "\" follows \"" +
                         constraints[i].source.name + "\", which follows it: expected no circle");
     _constraints = std::move(constraints);
     _bones = nullptr;

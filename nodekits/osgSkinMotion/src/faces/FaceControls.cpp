@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 namespace osgSkin {
-
 namespace {
 
 /// A stream's names, at most: an unknown program may send others without end.
@@ -23,13 +23,36 @@ bool isSame(const std::string& a, const std::string& b) {
 
 } // namespace
 
-FaceControls::FaceControls(osg::Node& character, const std::vector<std::string>& names)
-    : _morphs(morphNames(character)), _given(names.size()) {
-    for (DeformableSkin* skin : morphSkins(character)) _skins.push_back({skin, {}, 0});
-    add(names);
+FaceControls::FaceControls(const FaceControls& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), Attachment(other, copyop),
+      _names(other._names), _given(other._given), _matches(other._matches),
+      _weights(other._weights) {}
+
+FaceControls::~FaceControls() = default;
+
+osg::ref_ptr<FaceControls> FaceControls::create(osg::Node& root,
+                                                const std::vector<std::string>& names) {
+    const osg::ref_ptr<FaceControls> result = new FaceControls;
+    result->_names = names;
+    result->_given = names.size();
+    result->_weights.assign(names.size(), std::numeric_limits<float>::quiet_NaN());
+    result->findSkins(root);
+    return result;
 }
 
-void FaceControls::add(const std::vector<std::string>& names) {
+void FaceControls::findSkins(osg::Node& root) {
+    if (_root == &root) return;
+    _root = &root;
+    _morphs = morphNames(root);
+    _matches.clear();
+    _skins.clear();
+    for (DeformableSkin* skin : morphSkins(root)) _skins.push_back({skin, {}, 0});
+    match(0);
+}
+
+/// Finds what the names from `first` on move.
+void FaceControls::match(std::size_t first) {
+    const std::vector<std::string> names(_names.begin() + std::ptrdiff_t(first), _names.end());
     for (const FaceMatch& match : matchFace(names, _morphs)) {
         for (Skin& driven : _skins) {
             if (!driven.skin) continue;
@@ -44,11 +67,8 @@ void FaceControls::add(const std::vector<std::string>& names) {
                 }
         }
         _matches.push_back(match);
-        _weights.push_back(0.0f);
     }
 }
-
-FaceControls::~FaceControls() = default;
 
 bool FaceControls::set(const std::vector<float>& weights) {
     if (weights.size() != _given) return false;
@@ -61,18 +81,18 @@ bool FaceControls::set(const std::vector<float>& weights) {
 bool FaceControls::set(const std::string& name, float weight) {
     if (!std::isfinite(weight)) return false;
     const auto find = [&](const auto& isThis) {
-        return std::size_t(std::find_if(_matches.begin(), _matches.end(),
-                                        [&](const FaceMatch& m) { return isThis(m.name); }) -
-                           _matches.begin());
+        return std::size_t(std::find_if(_names.begin(), _names.end(), isThis) - _names.begin());
     };
     std::size_t n = find([&](const std::string& known) { return known == name; });
-    if (n == _matches.size())
-        n = find([&](const std::string& known) { return isSame(known, name); });
-    if (n == _matches.size()) {
+    if (n == _names.size()) n = find([&](const std::string& known) { return isSame(known, name); });
+    if (n == _names.size()) {
         if (n >= kMaxNames) return false;
-        add({name});
+        _names.push_back(name);
+        _weights.push_back(std::numeric_limits<float>::quiet_NaN());
+        if (_root.valid()) match(n);
     }
     _weights[n] = std::clamp(weight, 0.0f, 1.0f);
+    if (n >= _matches.size()) return true; // read from a file, before its first update
     if (_matches[n].parts.empty()) return false;
     apply();
     return true;
@@ -84,13 +104,23 @@ void FaceControls::apply() {
         if (!skin || driven.terms.empty()) continue;
         _next = skin->getMorphWeights();
         if (_next.size() <= driven.last) continue; // it has other targets now
-        for (const Term& term : driven.terms) _next[term.target] = 0.0f;
-        for (const Term& term : driven.terms)
-            _next[term.target] += term.weight * _weights[term.name];
-        for (const Term& term : driven.terms)
-            _next[term.target] = std::min(_next[term.target], 1.0f);
+        const auto forEach = [&](const auto& change) {
+            for (const Term& term : driven.terms)
+                if (!std::isnan(_weights[term.name])) change(_next[term.target], term);
+        };
+        forEach([](float& weight, const Term&) { weight = 0.0f; });
+        forEach(
+            [&](float& weight, const Term& term) { weight += term.weight * _weights[term.name]; });
+        forEach([](float& weight, const Term&) { weight = std::min(weight, 1.0f); });
         skin->setMorphWeights(_next);
     }
+}
+
+void FaceControls::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    traverse(node, nv); // clips move the face before
+    if (!node) return;
+    findSkins(*node);
+    apply();
 }
 
 } // namespace osgSkin

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <osgSkinMotion/FootContacts>
+
 #include "clips/JointMaps.h"
 #include "feet/FootTrack.h"
 #include "feet/Legs.h"
 #include "retarget/PlantedFoot.h"
 
-#include <osgSkinMotion/FootContacts>
 #include <osgSkinRig/BodyDirections>
 #include <osgSkinRig/JointRoles>
 
@@ -105,6 +106,7 @@ std::vector<double> alternate(std::vector<FootContacts::Contact> all, double dur
             turns.back() = contact;
     if (turns.size() % 2 != 0) turns.pop_back();
     std::vector<double> steps;
+    steps.reserve(turns.size());
     for (const FootContacts::Contact& contact : turns)
         steps.push_back(0.5 * (contact.begin + contact.end));
     const bool isMixed =

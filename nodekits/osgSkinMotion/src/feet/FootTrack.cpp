@@ -18,7 +18,7 @@ FootTrack findTrack(const SampledClip& clip, const TrackedFeet& feet) {
     };
     const std::size_t root = clip.rootJoint();
     for (std::size_t i = 0; i < clip.sampleCount(); ++i) {
-        findWhole(clip.joints(), clip.sample(i), whole);
+        localToModel(clip.joints(), clip.sample(i), whole);
         result.root.push_back(placeOf(root, clip.joints()[root].centre));
         for (std::size_t side = 0; side < feet.ankles.size(); ++side)
             result.ball[side].push_back(placeOf(feet.ankles[side], feet.balls[side]));

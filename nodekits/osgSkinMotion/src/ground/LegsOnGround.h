@@ -56,6 +56,8 @@ public:
     const Turns& turns(std::size_t side) const { return _feet[side].turns; }
 
 private:
+    friend struct AttachmentFile; // the serializers'
+
     enum SolePoint : std::size_t { Heel, Ball, Tip };
     using SolePoints = std::array<glm::dvec3, 3>;
 

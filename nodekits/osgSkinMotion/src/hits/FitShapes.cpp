@@ -17,7 +17,7 @@ namespace osgSkin {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
-using Shape = HitShapes::Shape;
+using Shape = HitBoxes::Shape;
 
 constexpr double kThin = 1e-4;      ///< of the largest half length: the smallest one
 constexpr double kMinSaving = 0.03; ///< of a division, as a share of the volume
@@ -347,7 +347,7 @@ Shape fitShape(const LimbSurface& surface, double inside) {
 }
 
 std::vector<std::vector<Shape>> fitShapes(const std::vector<LimbSurface>& limbs, double bodyVolume,
-                                          const HitShapes::Options& options) {
+                                          const HitBoxes::Options& options) {
     std::vector<Piece> pieces;
     std::vector<Division> divisions; // [piece]
     std::vector<std::size_t> counts(limbs.size(), 1);

@@ -2,7 +2,7 @@
 #ifndef OSGSKINMOTION_HITS_FITSHAPES_H
 #define OSGSKINMOTION_HITS_FITSHAPES_H
 
-#include <osgSkinMotion/HitShapes>
+#include <osgSkinMotion/HitBoxes>
 
 #include <glm/vec3.hpp>
 
@@ -21,7 +21,7 @@ struct LimbSurface {
 /// Fits one shape to a surface.
 /// \param surface at least one point
 /// \param inside part of the points that it contains
-HitShapes::Shape fitShape(const LimbSurface& surface, double inside);
+HitBoxes::Shape fitShape(const LimbSurface& surface, double inside);
 
 /// Fits shapes to limbs. The shape whose division saves the most volume is divided, until their sum
 /// is small enough.
@@ -30,9 +30,9 @@ HitShapes::Shape fitShape(const LimbSurface& surface, double inside);
 /// \param bodyVolume in the same unit
 /// \param options inside, volume and maxShapes
 /// \return [limb]
-std::vector<std::vector<HitShapes::Shape>> fitShapes(const std::vector<LimbSurface>& limbs,
-                                                     double bodyVolume,
-                                                     const HitShapes::Options& options);
+std::vector<std::vector<HitBoxes::Shape>> fitShapes(const std::vector<LimbSurface>& limbs,
+                                                    double bodyVolume,
+                                                    const HitBoxes::Options& options);
 
 } // namespace osgSkin
 

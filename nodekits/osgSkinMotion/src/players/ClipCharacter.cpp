@@ -2,6 +2,7 @@
 #include <osgSkinMotion/ClipCharacter>
 
 #include "clips/BakedClip.h"
+#include "players/FigureClips.h"
 
 #include <osgSkin/Deform>
 #include <osgSkin/Error>
@@ -9,17 +10,14 @@
 #include <osgSkin/GlmTypes>
 #include <osgSkin/Pose>
 #include <osgSkin/RigidPart>
-#include <osgSkin/UpdateMorphs>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include <glm/common.hpp>
 #include <osg/LOD>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/Switch>
-#include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Bone>
-#include <osgAnimation/Channel>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
@@ -105,17 +103,12 @@ osgAnimation::Bone* boneAbove(const osg::NodePath& path, osg::NodePath* below = 
     return nullptr;
 }
 
-/// Finds skins, rigid parts and animations below a node, with the paths to the former, and what
-/// else hangs on bones.
+/// Finds skins and rigid parts below a node, and what else hangs on bones.
 class CharacterParts : public osg::NodeVisitor {
 public:
     CharacterParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
 
     void apply(osg::Node& node) override {
-        for (osg::Callback* c = node.getUpdateCallback(); c; c = c->getNestedCallback())
-            if (auto* manager = dynamic_cast<osgAnimation::AnimationManagerBase*>(c))
-                animations.insert(animations.end(), manager->getAnimationList().begin(),
-                                  manager->getAnimationList().end());
         if (dynamic_cast<RigidPart*>(&node))
             rigids.push_back(getNodePath());
         else
@@ -128,30 +121,8 @@ public:
             hung.push_back(getNodePath());
     }
 
-    osgAnimation::AnimationList animations;
     std::vector<osg::NodePath> skins, rigids, hung;
 };
-
-/// Removes animation managers.
-class ManagerRemover : public osg::NodeVisitor {
-public:
-    ManagerRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override {
-        for (osg::ref_ptr<osg::Callback> c = node.getUpdateCallback(); c;) {
-            const osg::ref_ptr<osg::Callback> next = c->getNestedCallback();
-            if (dynamic_cast<osgAnimation::AnimationManagerBase*>(c.get()))
-                node.removeUpdateCallback(c);
-            c = next;
-        }
-        traverse(node);
-    }
-};
-
-/// The scene's Z in rest space.
-osg::Vec3d upOf(const osg::Matrixd& toWorld) {
-    return osg::Matrixd::transform3x3(toWorld, osg::Vec3d(0.0, 0.0, 1.0));
-}
 
 /// The path up to the nearest skeleton; empty where there is none.
 osg::NodePath toSkeleton(osg::NodePath path) {
@@ -309,7 +280,7 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
     character.accept(found);
     const osg::ref_ptr<ClipCharacter> result = new ClipCharacter;
     result->_character = &character;
-    result->_animations = found.animations;
+    result->_animations = animationsOf(character);
     for (const osg::NodePath& path : found.skins) {
         auto* skin = static_cast<DeformableSkin*>(path.back());
         if (!skin->getModel()) continue;
@@ -321,11 +292,9 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
         result->_toWorld = osg::computeLocalToWorld(above);
         result->_skins.push_back({skin, osg::computeLocalToWorld(path), appearanceOf(path)});
     }
-    if (result->_skins.empty()) throw Error("clip character: no skin, expected a DeformableSkin");
-    if (Springs::of(*result->_skeleton))
-        OSG_NOTICE << "osgSkin: clip character: its springs swing with makeBonePlayer(), not in "
-                      "copies without bones"
-                   << std::endl;
+    if (result->_skins.empty())
+        throw Error("clip character: no skin below \"" + character.getName() +
+                    "\", expected a DeformableSkin");
     for (const osg::NodePath& path : found.rigids) {
         osg::Group& part = *path.back()->asGroup();
         Rigid rigid{{}, part.getName(), appearanceOf(path)};
@@ -348,26 +317,13 @@ osg::ref_ptr<ClipCharacter> ClipCharacter::create(osg::Node& character) {
 
 osg::ref_ptr<const SampledClip> ClipCharacter::clip(const std::string& name) {
     osg::ref_ptr<const SampledClip>& sampled = _clips[name];
-    if (sampled) return sampled;
-    std::string known;
-    for (const auto& animation : _animations) {
-        if (animation->getName() == name) return sampled = sample(*animation);
-        known += (known.empty() ? "\"" : ", \"") + animation->getName() + "\"";
-    }
-    throw Error("clip character: no animation \"" + name + "\", expected " +
-                (known.empty() ? "a character with animations" : "one of " + known));
+    if (!sampled) sampled = sampleNamed(name, _animations, *_skeleton, "clip character: ");
+    return sampled;
 }
 
 osg::ref_ptr<const SampledClip> ClipCharacter::sample(const osgAnimation::Animation& animation,
                                                       double samplesPerSecond) const {
-    for (const auto& channel : animation.getChannels()) {
-        if (channel->getTargetName() != UpdateMorphs::kName) continue;
-        OSG_NOTICE << onOneLine("osgSkin: clip character: animation \"" + animation.getName() +
-                                "\" moves morph targets, which players leave as they are")
-                   << std::endl;
-        break;
-    }
-    return SampledClip::create(animation, *_skeleton, samplesPerSecond);
+    return sampleOf(animation, *_skeleton, samplesPerSecond);
 }
 
 void ClipCharacter::bake(const SampledClip* clip) {
@@ -423,18 +379,10 @@ void ClipCharacter::bake(const SampledClip* clip) {
     _bakedBounds = bounds;
 }
 
-osg::ref_ptr<ClipPlayer> ClipCharacter::makeBonePlayer(osg::ref_ptr<ClipPlayer> player) {
-    ManagerRemover remover;
-    _character->accept(remover);
-    if (!player) player = new ClipPlayer;
-    player->setRoot(ClipPlayer::Root::Moving, upOf(_toWorld));
-    player->addBones(_skeleton);
-    player->setNestedCallback(_character->getUpdateCallback());
-    _character->setUpdateCallback(player);
-    return player;
-}
-
 ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
+    if (!std::exchange(_hasNoticed, true) && find<SpringBones>(*_character))
+        OSG_NOTICE << "osgSkin: clip character: springs do not swing in copies without bones"
+                   << std::endl;
     const osg::ref_ptr<CopyRoot> root = new CopyRoot;
     Instance result{root, new ClipPlayer};
     result.node->setName(_character->getName());
@@ -463,6 +411,7 @@ ClipCharacter::Instance ClipCharacter::makeInstance(bool updates) const {
         result.player->addRigid(rigid, source.joint, _toWorld);
     }
     result.player->_baked = _baked;
+    result.player->_toWorld = _toWorld;
     result.node->getBound(); // now: threads that pose copies may ask for bounds of what they share
     if (updates) result.node->setUpdateCallback(result.player);
     return result;

@@ -205,9 +205,16 @@ osg::ref_ptr<const SampledClip> ClipLayers::frozen(const JointSample* posed) {
     return result;
 }
 
-void ClipLayers::addEvent(const SampledClip* clip, double time, const ClipPlayer::Event& event) {
-    if (clip && event && std::isfinite(time))
-        _events.push_back(std::make_shared<const Event>(Event{clip, time, event}));
+void ClipLayers::addEvent(const SampledClip* clip, double time, const std::string& name,
+                          const ClipPlayer::Event& event) {
+    if (clip && std::isfinite(time))
+        _events.push_back(std::make_shared<const Event>(Event{clip, time, name, event}));
+}
+
+void ClipLayers::onEvent(const std::string& name, const ClipPlayer::Event& event) {
+    for (std::shared_ptr<const Event>& each : _events)
+        if (each->name == name)
+            each = std::make_shared<const Event>(Event{each->clip, each->time, name, event});
 }
 
 void ClipLayers::removeEvents(const SampledClip* clip) {
@@ -319,7 +326,8 @@ void ClipLayers::findReached(std::size_t index) {
 void ClipLayers::callEvents(ClipPlayer& player) {
     std::vector<Reached> reached;
     reached.swap(_reached); // a callback may advance the player
-    for (const Reached& each : reached) each.event->call(player, each.layer);
+    for (const Reached& each : reached)
+        if (each.event->call) each.event->call(player, each.layer);
     reached.clear();
     _reached.swap(reached);
 }
@@ -362,7 +370,7 @@ void ClipLayers::matchJoints(Slot& slot) const {
     if (!layer.clip) return;
     const SampledClip& clip = *layer.clip;
     slot.movesRoot = isNamed(layer, clip.joints()[clip.rootJoint()].name);
-    const SampledClip::Place at = clip.place(layer.reference, false);
+    const SampledClip::Interval at = clip.intervalAt(layer.reference, false);
     for (std::size_t j = 0; j < _base->joints().size(); ++j) {
         const std::string& name = _base->joints()[j].name;
         const int own = &clip == _base ? static_cast<int>(j) : clip.find(name);
@@ -386,7 +394,7 @@ void ClipLayers::blend(const Slot& slot, const JointSample* posed,
                        std::vector<JointSample>& joints) const {
     const Layer& layer = slot.layer;
     const SampledClip& clip = *layer.clip;
-    SampledClip::Place at = clip.place(layer.time, layer.loop);
+    SampledClip::Interval at = clip.intervalAt(layer.time, layer.loop);
     if (!_interpolated || posed) at.share = 0.0;
     const JointSample* from = posed ? posed : clip.sample(at.from);
     const JointSample* next = posed ? posed : clip.sample(at.to);

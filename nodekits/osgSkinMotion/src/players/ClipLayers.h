@@ -40,7 +40,9 @@ public:
     void playOn(const Layer& layer, double seconds, Easing easing);
     void stopOn(double seconds, Easing easing);
 
-    void addEvent(const SampledClip* clip, double time, const ClipPlayer::Event& event);
+    void addEvent(const SampledClip* clip, double time, const std::string& name,
+                  const ClipPlayer::Event& event);
+    void onEvent(const std::string& name, const ClipPlayer::Event& event);
     void removeEvents(const SampledClip* clip);
 
     /// Advances times, fades and the root, and finds the events for callEvents().
@@ -74,6 +76,8 @@ public:
     void markPosed();
 
 private:
+    friend struct AttachmentFile; // the serializers'
+
     /// A joint of prepare()'s clip that a layer moves.
     struct Match {
         std::size_t joint;
@@ -105,6 +109,7 @@ private:
     struct Event {
         osg::ref_ptr<const SampledClip> clip;
         double time;
+        std::string name;
         ClipPlayer::Event call;
     };
 

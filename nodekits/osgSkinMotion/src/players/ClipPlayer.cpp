@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinMotion/ClipPlayer>
 
+#include "bones/Figure.h"
 #include "clips/BakedClip.h"
 #include "clips/ClipBones.h"
 #include "clips/JointMaps.h"
 #include "players/ClipLayers.h"
+#include "players/FigureClips.h"
+#include "players/PlacedBone.h"
 
+#include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/PoseBounds>
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osgAnimation/AnimationManagerBase>
 
 #include <algorithm>
 #include <cmath>
@@ -35,37 +40,88 @@ bool isActivated(const DeformableSkin& skin) {
     return false;
 }
 
+std::vector<osg::ref_ptr<osgAnimation::Bone>> bonesBelowRoot(osg::Node& root) {
+    osgAnimation::Skeleton* const skeleton = skeletonBelow(root);
+    return skeleton ? bonesInOrder(*skeleton) : std::vector<osg::ref_ptr<osgAnimation::Bone>>();
+}
+
+PlacedBone* placedOf(osgAnimation::Bone& bone) {
+    for (osg::Callback* c = bone.getUpdateCallback(); c; c = c->getNestedCallback())
+        if (auto* placed = dynamic_cast<PlacedBone*>(c)) return placed;
+    return nullptr;
+}
+
 int parentJoint(const SampledClip& clip, int joint) {
     return joint < 0 ? -1 : clip.joints()[static_cast<std::size_t>(joint)].parent;
 }
 
 } // namespace
 
-/// Sets a bone's matrices, after the bone's own callback and before those that were added to it.
-class ClipPlayer::PlacedBone : public osg::NodeCallback {
-public:
-    osg::Matrixd inParent, inSkeleton;
-
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        auto& bone = static_cast<osgAnimation::Bone&>(*node);
-        bone.setMatrix(inParent);
-        bone.setMatrixInSkeletonSpace(inSkeleton);
-        traverse(node, nv);
+void PlacedBone::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (auto* bone = isSet ? dynamic_cast<osgAnimation::Bone*>(node) : nullptr) {
+        bone->setMatrix(inParent);
+        bone->setMatrixInSkeletonSpace(inSkeleton);
     }
-};
+    traverse(node, nv);
+}
 
 ClipPlayer::ClipPlayer() : _layers(new ClipLayers) {}
 ClipPlayer::~ClipPlayer() = default;
 
 ClipPlayer::ClipPlayer(const ClipPlayer& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
-      _layers(new ClipLayers) {
-    for (std::size_t i = 0; i < kMaxLayers; ++i)
-        if (other.getLayer(i).clip) setLayer(i, other.getLayer(i));
-    setInterpolated(other.getInterpolated());
-    setRoot(other.getRoot(), other._layers->up());
+    : osg::Object(other, copyop), osg::Callback(other, copyop), Attachment(other, copyop),
+      _layers(new ClipLayers(*other._layers)), _isAttached(other._isAttached),
+      _toWorld(other._toWorld), _clips(other._clips) {
+    if (_isAttached) return;
     OSG_WARN << "osgSkin: a copy of a ClipPlayer poses nothing, expected ClipCharacter to make one"
              << std::endl;
+}
+
+osg::ref_ptr<ClipPlayer> ClipPlayer::create(osg::Node& root) {
+    const osg::ref_ptr<ClipPlayer> result = new ClipPlayer;
+    result->setFigure(root, findFigure(root, "clip player"));
+    return result;
+}
+
+void ClipPlayer::setFigure(osg::Node& root, const Figure& figure) {
+    topBoneOf(figure); // throws where there is none
+    _root = &root;
+    _toWorld = figure.toWorld;
+    // The scene's Z in rest space.
+    setRoot(Root::Moving, osg::Matrixd::transform3x3(_toWorld, osg::Vec3d(0.0, 0.0, 1.0)));
+}
+
+bool ClipPlayer::replaces(const Attachment& other) const {
+    return dynamic_cast<const ClipPlayer*>(&other) != nullptr;
+}
+
+void ClipPlayer::onAttach(osg::Node& root) {
+    std::vector<osg::ref_ptr<osg::Callback>> managers = takeManagers(root);
+    for (auto manager = managers.rbegin(); manager != managers.rend(); ++manager) {
+        (*manager)->setNestedCallback(getNestedCallback());
+        setNestedCallback(*manager);
+    }
+    _isAttached = true;
+    findBones(root);
+}
+
+void ClipPlayer::onDetach(osg::Node& root) {
+    _isAttached = false;
+    _bones.clear();
+    const std::vector<osg::ref_ptr<osgAnimation::Bone>> bones = bonesBelowRoot(root);
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : bones)
+        if (PlacedBone* placed = placedOf(*bone)) bone->removeUpdateCallback(placed);
+}
+
+osg::ref_ptr<const SampledClip> ClipPlayer::clip(const std::string& name) {
+    osg::ref_ptr<const SampledClip>& sampled = _clips[name];
+    if (sampled) return sampled;
+    osg::ref_ptr<osg::Node> root;
+    if (!_root.lock(root))
+        throw Error("clip player: it is attached to no character, which would have \"" + name +
+                    '"');
+    const Figure figure = findFigure(*root, "clip player");
+    return sampled = sampleNamed(name, animationsOf(*root), *figure.skeleton, figure.label);
 }
 
 void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
@@ -108,8 +164,13 @@ void ClipPlayer::stopOn(double fade, Easing easing) {
     _layers->stopOn(fade, easing);
 }
 
-void ClipPlayer::addEvent(const SampledClip* clip, double time, const Event& event) {
-    _layers->addEvent(clip, time, event);
+void ClipPlayer::addEvent(const SampledClip* clip, double time, const std::string& name,
+                          const Event& event) {
+    _layers->addEvent(clip, time, name, event);
+}
+
+void ClipPlayer::onEvent(const std::string& name, const Event& event) {
+    _layers->onEvent(name, event);
 }
 
 void ClipPlayer::addFootEvents(
@@ -118,7 +179,7 @@ void ClipPlayer::addFootEvents(
     if (!clip || !event) return;
     for (const FootContacts::Contact& contact : clip->footContacts().all)
         addEvent(
-            clip, contact.begin,
+            clip, contact.begin, contact.foot == 0 ? "LeftFoot" : "RightFoot",
             [event, foot = contact.foot](ClipPlayer& player, std::size_t) { event(player, foot); });
 }
 
@@ -151,11 +212,11 @@ osg::Vec3d ClipPlayer::takeRootMotion() {
     return getRoot() == Root::ExtractedWithTurn ? osg::Vec3d() : shift;
 }
 
-osg::Matrixd ClipPlayer::takeRootMatrix(const osg::Matrixd& toWorld) {
+osg::Matrixd ClipPlayer::takeRootMatrix() {
     const ClipLayers::GroundMove move = _layers->takeMotion();
     osg::Matrixd result = osg::Matrixd::rotate(osg::Quat(move.angle, _layers->up()));
     result.setTrans(move.shift);
-    return osg::Matrixd::inverse(toWorld) * result * toWorld;
+    return osg::Matrixd::inverse(_toWorld) * result * _toWorld;
 }
 
 void ClipPlayer::addSkin(DeformableSkin* skin) {
@@ -171,26 +232,30 @@ void ClipPlayer::addRigid(osg::MatrixTransform* transform, const std::string& jo
     _found = nullptr;
 }
 
-void ClipPlayer::addBones(osgAnimation::Skeleton* skeleton) {
-    if (!skeleton) return;
+void ClipPlayer::findBones(osg::Node& root) {
+    _root = &root;
+    _bones.clear();
+    _found = nullptr;
     std::map<const osgAnimation::Bone*, int> indices;
-    for (const osg::ref_ptr<osgAnimation::Bone>& bone : bonesInOrder(*skeleton)) {
-        const osg::ref_ptr<PlacedBone> placed = new PlacedBone;
+    for (const osg::ref_ptr<osgAnimation::Bone>& bone : bonesBelowRoot(root)) {
+        osg::ref_ptr<PlacedBone> placed = placedOf(*bone);
+        if (!placed) {
+            placed = new PlacedBone;
+            osgAnimation::UpdateBone* const own = updateOf(*bone);
+            placed->setNestedCallback(own ? own->getNestedCallback() : bone->getUpdateCallback());
+            if (own)
+                own->setNestedCallback(placed);
+            else
+                bone->setUpdateCallback(placed);
+        }
         placed->inParent = bone->getMatrix();
         placed->inSkeleton = bone->getMatrixInSkeletonSpace();
-        if (osg::Callback* own = updateOf(*bone)) {
-            placed->setNestedCallback(own->getNestedCallback());
-            own->setNestedCallback(placed);
-        } else {
-            placed->setNestedCallback(bone->getUpdateCallback());
-            bone->setUpdateCallback(placed);
-        }
+        placed->isSet = true;
         const auto parent = indices.find(bone->getBoneParent());
         indices[bone] = static_cast<int>(_bones.size());
         _bones.push_back({placed, bone->getName(), parent == indices.end() ? -1 : parent->second,
                           -1, osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace())});
     }
-    _found = nullptr;
 }
 
 void ClipPlayer::advance(double seconds) {
@@ -319,9 +384,9 @@ bool ClipPlayer::poseAs(Pose::Twist twist) {
     if (!clip) return false;
     const Layer* alone = _layers->alone();
     const BakedClip* baked = findBaked(alone);
-    SampledClip::Place at;
+    SampledClip::Interval at;
     if (baked) {
-        at = alone->clip->place(alone->time, alone->loop);
+        at = alone->clip->intervalAt(alone->time, alone->loop);
         if ((!getInterpolated() || at.share == 0.0) && poseBaked(*baked, at.from)) return true;
     }
     if (!knowsJoints(*clip)) findJoints(*clip);
@@ -360,8 +425,20 @@ void ClipPlayer::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         _last = now;
         _started = true;
     }
+    if (!_isAttached || !node || !nv) {
+        pose();
+        traverse(node, nv);
+        return;
+    }
+    if (_root != node) findBones(*node); // of a copy, or of a scene that was read
     pose();
-    traverse(node, nv);
+    osg::Callback* next = getNestedCallback();
+    while (dynamic_cast<osgAnimation::AnimationManagerBase*>(next)) // they pause
+        next = next->getNestedCallback();
+    if (next)
+        next->run(node, nv);
+    else
+        nv->traverse(*node);
 }
 
 } // namespace osgSkin

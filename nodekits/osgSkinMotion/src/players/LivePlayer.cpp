@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinMotion/LivePlayer>
 
-#include <osgSkinMotion/ClipCharacter>
+#include "bones/Figure.h"
+
 #include <osgSkinRig/Clip>
 
 #include <osg/FrameStamp>
@@ -32,16 +33,16 @@ osg::ref_ptr<const SampledClip> restClip(const RestSkeleton& rig) {
 } // namespace
 
 LivePlayer::LivePlayer(const LivePlayer& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), ClipPlayer(other, copyop) {}
+    : osg::Object(other, copyop), osg::Callback(other, copyop), ClipPlayer(other, copyop),
+      _target(other._shown), _shown(other._shown) {}
 
-osg::ref_ptr<LivePlayer> LivePlayer::addTo(osg::Node& character, LiveRetarget retarget) {
-    const osg::ref_ptr<ClipCharacter> parts = ClipCharacter::create(character);
+osg::ref_ptr<LivePlayer> LivePlayer::create(osg::Node& root, LiveRetarget retarget) {
     const osg::ref_ptr<LivePlayer> player = new LivePlayer;
+    player->setFigure(root, findFigure(root, "live player"));
     player->setLayer(0, {restClip(retarget.rig()), 0.0, 0.0});
     player->_next.resize(retarget.rig().joints.size());
     player->_shown = player->_target = player->_received = player->_next; // at rest
     player->_retarget.emplace(std::move(retarget));
-    parts->makeBonePlayer(player);
     return player;
 }
 

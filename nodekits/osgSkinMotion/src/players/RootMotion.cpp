@@ -70,7 +70,7 @@ ClipLayers::GroundMove ClipLayers::rootMove(const SampledClip& clip,
 /// \param loops set to the number of loops before
 ClipLayers::GroundMove ClipLayers::rootAt(const Layer& layer, double time, double& loops) const {
     const SampledClip& clip = *layer.clip;
-    const SampledClip::Place at = clip.place(time, layer.loop);
+    const SampledClip::Interval at = clip.intervalAt(time, layer.loop);
     const auto rootOf = [&](std::size_t sample) { return clip.sample(sample)[clip.rootJoint()]; };
     loops = 0.0;
     if (layer.loop)

@@ -112,6 +112,18 @@ bool SpringChains::move(const Frame& frame, double seconds) {
     return true;
 }
 
+void SpringChains::recall(const std::vector<State>& states, const std::vector<glm::dvec3>& tips,
+                          const Frame& frame) {
+    for (std::size_t j = 0; j < _states.size(); ++j) {
+        const std::size_t top = _states[j].top;
+        _states[j] = states[j];
+        _states[j].top = top;
+    }
+    _tips = tips;
+    _now = frame;
+    _isMoving = true;
+}
+
 void SpringChains::settle() {
     _before = _now;
     _isMoving = true;

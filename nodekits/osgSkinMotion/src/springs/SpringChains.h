@@ -49,18 +49,6 @@ public:
         glm::dquat fromWorld{1.0, 0.0, 0.0, 0.0}; ///< rotates gravity
     };
 
-    /// \param joints with numbers of any value
-    explicit SpringChains(std::vector<Joint> joints = {});
-
-    /// Moves on to a frame; the first one begins at rest.
-    /// \param seconds since the last frame
-    /// \return false, and nothing changes, where a number is not finite
-    bool move(const Frame& frame, double seconds);
-
-    /// Where the bones' tips are.
-    const std::vector<glm::dvec3>& tips() const { return _tips; }
-
-private:
     struct State {
         std::size_t top = 0;        ///< the topmost joint of the chain
         glm::dvec3 frameSpeed{0.0}; ///< of a topmost joint, in the last frame
@@ -76,6 +64,27 @@ private:
         glm::dquat swing{1, 0, 0, 0}; ///< from the pose without springs
     };
 
+    /// \param joints with numbers of any value
+    explicit SpringChains(std::vector<Joint> joints = {});
+
+    /// Moves on to a frame; the first one begins at rest.
+    /// \param seconds since the last frame
+    /// \return false, and nothing changes, where a number is not finite
+    bool move(const Frame& frame, double seconds);
+
+    /// Where the bones' tips are.
+    const std::vector<glm::dvec3>& tips() const { return _tips; }
+
+    // What files keep:
+    const std::vector<State>& states() const { return _states; }
+    const Frame& frame() const { return _now; } ///< the last one
+    bool isMoving() const { return _isMoving; }
+    /// Goes on from there in the next frame. All have as many entries as there are joints and
+    /// colliders.
+    void recall(const std::vector<State>& states, const std::vector<glm::dvec3>& tips,
+                const Frame& frame);
+
+private:
     void settle();
     void carryOverJumps(double seconds, bool isPause);
     void prepare(double seconds, double leastDrag);

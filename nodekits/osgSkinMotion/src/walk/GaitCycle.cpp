@@ -106,7 +106,7 @@ struct Poses {
 private:
     std::vector<JointMap> wholeAt(std::size_t sample) const {
         std::vector<JointMap> whole;
-        findWhole(clip.joints(), &samples[sample * joints()], whole);
+        localToModel(clip.joints(), &samples[sample * joints()], whole);
         return whole;
     }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Where a walker's feet stand, and the legs that reach them.
+#include "walk/WalkPlayer.h"
+
 #include "bones/TwoBone.h"
 #include "feet/Legs.h"
-#include "walk/WalkPlayer.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
@@ -17,7 +18,7 @@ namespace {
 constexpr double kStepTime = 0.35;  ///< of a step on the spot
 constexpr double kStepLift = 0.06;  ///< leg lengths, of a step on the spot
 constexpr double kClearance = 0.02; ///< leg lengths, of a sole above the floor in mid-swing
-constexpr double kMaxOffset = 0.06; ///< leg lengths by which a standing foot may be off its place
+constexpr double kMaxOffset = 0.06; ///< maximum foothold error, leg lengths
 constexpr double kMaxTurn = 0.5;    ///< the same, radians
 constexpr double kMaxReach = 0.5;   ///< leg lengths by which a planted foot may be off its clip's
 constexpr double kStraight = 0.999; ///< of a leg's length, which it may have
@@ -183,7 +184,7 @@ void WalkPlayer::lowerHips(const std::array<glm::dvec3, 2>& targets) {
     const JointMap above = parent < 0 ? JointMap() : _whole[static_cast<std::size_t>(parent)];
     const glm::dvec3 down = glm::conjugate(_fromRest) * glm::dvec3(0.0, 0.0, -drop / _unit);
     _joints[root].translation += glm::conjugate(above.rotation) * down / above.scale;
-    findWhole(set.standing->joints(), _joints.data(), _whole);
+    localToModel(set.standing->joints(), _joints.data(), _whole);
 }
 
 /// Bends the legs so that the feet are where they are meant to be.

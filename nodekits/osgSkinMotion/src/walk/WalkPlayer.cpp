@@ -155,7 +155,7 @@ void WalkPlayer::blendGaits() {
         addGait(set.running, _running);
     }
     add(*set.standing, _standingTime, 1.0 - _walking);
-    findWhole(set.standing->joints(), _joints.data(), _whole);
+    localToModel(set.standing->joints(), _joints.data(), _whole);
 }
 
 void WalkPlayer::move(const glm::dmat4& place, double dt, const double* speed) {

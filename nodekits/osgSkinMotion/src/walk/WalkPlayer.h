@@ -20,7 +20,7 @@ inline double towards(double from, double to, double most) {
     return from + std::clamp(to - from, -most, most);
 }
 
-/// Poses a figure by the way that it is carried. Walker space, see Gaits.
+/// Poses a figure from its displacement. Walker space, see Gaits.
 class WalkPlayer : public ClipPlayer {
 public:
     explicit WalkPlayer(const osg::ref_ptr<const Gaits>& gaits);
@@ -44,7 +44,7 @@ public:
     /// Plays a clip on the upper body once.
     bool playClip(const SampledClip& clip, double fade);
 
-    /// Whether another move() without way and with any time would change nothing.
+    /// Whether the walker is idle: a move() without displacement would change nothing.
     bool isStill() const;
 
 protected:

@@ -2,8 +2,9 @@
 #include "FindNodes.h"
 #include "UpdateAt.h"
 
+#include <osgSkin/Error>
 #include <osgSkinMotion/RotateBone>
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 #include <osgSkinRig/MakeSkeleton>
 
 #include <osgDB/ReadFile>
@@ -19,7 +20,8 @@
 namespace {
 
 using osg::Vec3d;
-using osgSkin::Springs;
+using osgSkin::find;
+using osgSkin::SpringBones;
 using osgSkin::SpringSettings;
 
 constexpr double kFrame = 1.0 / 60.0;
@@ -53,11 +55,12 @@ osg::Matrixd toWorld() {
 /// A figure whose head a callback turns.
 struct Figure {
     explicit Figure(const SpringSettings& settings = tailSprings(), double size = 1.0)
-        : skeleton(osgSkin::makeSkeleton(tailRig())), springs(new Springs(settings, toWorld())) {
+        : skeleton(osgSkin::makeSkeleton(tailRig())),
+          springs(new SpringBones(settings, toWorld())) {
         place->setMatrix(osg::Matrixd::scale(size, size, size));
         upright->addChild(skeleton);
         place->addChild(upright);
-        EXPECT_TRUE(springs->addTo(*skeleton));
+        osgSkin::attach(*skeleton, *springs);
         bone("Head")->addUpdateCallback(turn);
     }
 
@@ -90,7 +93,7 @@ struct Figure {
     }
 
     osg::ref_ptr<osgAnimation::Skeleton> skeleton;
-    osg::ref_ptr<Springs> springs;
+    osg::ref_ptr<SpringBones> springs;
     osg::ref_ptr<Turn> turn = new Turn;
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
     osg::ref_ptr<osg::MatrixTransform> upright = new osg::MatrixTransform(toWorld());
@@ -99,7 +102,7 @@ struct Figure {
 
 const Vec3d kBack(0, 0, -1), kDown(0, -1, 0), kLeft(1, 0, 0);
 
-TEST(Springs, HangFromTheFirstFrameOn) {
+TEST(SpringBones, HangFromTheFirstFrameOn) {
     Figure figure;
     figure.frame();
     const double first = figure.degreesTo(kBack);
@@ -109,7 +112,7 @@ TEST(Springs, HangFromTheFirstFrameOn) {
     EXPECT_GT(figure.tail() * kDown, 0.05);
 }
 
-TEST(Springs, LagBehindAMoveAndComeBack) {
+TEST(SpringBones, LagBehindAMoveAndComeBack) {
     Figure figure;
     for (int i = 0; i < 60; ++i) figure.frame();
     const Vec3d atRest = figure.tail();
@@ -122,7 +125,7 @@ TEST(Springs, LagBehindAMoveAndComeBack) {
     EXPECT_GT(figure.tail() * atRest, 0.999);
 }
 
-TEST(Springs, FollowWhatOtherCallbacksDo) {
+TEST(SpringBones, FollowWhatOtherCallbacksDo) {
     Figure figure;
     for (int i = 1; i <= 20; ++i) {
         figure.turn->angle = osg::DegreesToRadians(4.0 * i);
@@ -134,7 +137,7 @@ TEST(Springs, FollowWhatOtherCallbacksDo) {
     EXPECT_LT(figure.degreesTo(pose), 20.0); // hangs
 }
 
-TEST(Springs, ActAfterCallbacksThatAreAddedToTheirBoneLater) {
+TEST(SpringBones, ActAfterCallbacksThatAreAddedToTheirBoneLater) {
     Figure figure;
     const osg::ref_ptr<Figure::Turn> neck = new Figure::Turn;
     figure.bone("Neck")->addUpdateCallback(neck);
@@ -145,7 +148,7 @@ TEST(Springs, ActAfterCallbacksThatAreAddedToTheirBoneLater) {
     EXPECT_GT(figure.degreesTo(osg::Quat(neck->angle, Vec3d(0, 1, 0)) * kBack), 15.0);
 }
 
-TEST(Springs, SharedByTwoSkeletonsHangStill) {
+TEST(SpringBones, SharedByTwoSkeletonsHangStill) {
     Figure one;
     const osg::ref_ptr<osgAnimation::Skeleton> other = osgSkin::makeSkeleton(tailRig());
     other->getChild(0)->setUpdateCallback(one.springs);
@@ -160,7 +163,7 @@ TEST(Springs, SharedByTwoSkeletonsHangStill) {
     }
 }
 
-TEST(Springs, WithACentreSwingByMovementBelowItAlone) {
+TEST(SpringBones, WithACentreSwingByMovementBelowItAlone) {
     Figure figure(tailSprings("Neck"));
     for (int i = 0; i < 60; ++i) figure.frame();
     const Vec3d atRest = figure.tail();
@@ -176,7 +179,7 @@ TEST(Springs, WithACentreSwingByMovementBelowItAlone) {
     EXPECT_GT(figure.degreesTo(osg::Quat(figure.turn->angle, Vec3d(0, 1, 0)) * kBack), 15.0);
 }
 
-TEST(Springs, AreTheSameForFiguresOfAnySize) {
+TEST(SpringBones, AreTheSameForFiguresOfAnySize) {
     Figure one, giant(tailSprings(), 20.0);
     for (int i = 1; i <= 60; ++i) {
         one.place->setMatrix(osg::Matrixd::translate(0.03 * i, 0, 0));
@@ -188,14 +191,14 @@ TEST(Springs, AreTheSameForFiguresOfAnySize) {
     }
 }
 
-TEST(Springs, HangInTheWorldWhereAFigureLies) {
+TEST(SpringBones, HangInTheWorldWhereAFigureLies) {
     Figure figure;
     figure.place->setMatrix(osg::Matrixd::rotate(osg::PI, Vec3d(0, 1, 0))); // head down
     for (int i = 0; i < 60; ++i) figure.frame();
     EXPECT_LT(figure.tail() * kDown, -0.05);
 }
 
-TEST(Springs, AreCarriedAlongByATeleport) {
+TEST(SpringBones, AreCarriedAlongByATeleport) {
     Figure figure;
     for (int i = 0; i < 60; ++i) figure.frame();
     const Vec3d atRest = figure.tail();
@@ -206,7 +209,7 @@ TEST(Springs, AreCarriedAlongByATeleport) {
     }
 }
 
-TEST(Springs, LeavePosesThatAreNotFinite) {
+TEST(SpringBones, LeavePosesThatAreNotFinite) {
     Figure figure, other;
     for (int i = 0; i < 60; ++i) {
         figure.turn->angle = i % 10 == 5 ? std::numeric_limits<double>::quiet_NaN() : 0.01 * i;
@@ -229,7 +232,7 @@ TEST(Springs, LeavePosesThatAreNotFinite) {
     EXPECT_TRUE(figure.tail().valid());
 }
 
-TEST(Springs, StayOutOfACollider) {
+TEST(SpringBones, StayOutOfACollider) {
     SpringSettings settings = tailSprings();
     settings.colliders.push_back({"Head", {0, 148, -22}, {0, 148, -22}, 9.0});
     settings.chains[0].colliders = {0};
@@ -248,7 +251,7 @@ TEST(Springs, StayOutOfACollider) {
     EXPECT_LT((through - Vec3d(0, 148, -22)).length(), 10.0);
 }
 
-TEST(Springs, LeaveThePoseWhereTheyAreOff) {
+TEST(SpringBones, LeaveThePoseWhereTheyAreOff) {
     Figure figure;
     figure.frame();
     figure.springs->setEnabled(false);
@@ -256,7 +259,7 @@ TEST(Springs, LeaveThePoseWhereTheyAreOff) {
     EXPECT_LT(figure.degreesTo(kBack), 1e-4);
 }
 
-TEST(Springs, StartFromThePoseOfBonesWithoutACallback) {
+TEST(SpringBones, StartFromThePoseOfBonesWithoutACallback) {
     Figure figure;
     for (const char* name : {"Tail1", "Tail2", "Tail3"})
         figure.bone(name)->setUpdateCallback(nullptr);
@@ -269,7 +272,7 @@ TEST(Springs, StartFromThePoseOfBonesWithoutACallback) {
     EXPECT_LT(figure.degreesTo(kBack), 1e-4);
 }
 
-TEST(Springs, GoOnWhereABoneIsRemoved) {
+TEST(SpringBones, GoOnWhereABoneIsRemoved) {
     Figure figure;
     figure.frame();
     osgAnimation::Bone* const last = figure.bone("Tail3");
@@ -279,25 +282,25 @@ TEST(Springs, GoOnWhereABoneIsRemoved) {
     EXPECT_TRUE(figure.tail().valid());
 }
 
-TEST(Springs, AreReplacedByOthers) {
+TEST(SpringBones, AreReplacedByOthers) {
     Figure figure;
-    const osg::ref_ptr<Springs> none = new Springs(SpringSettings(), toWorld());
-    EXPECT_EQ(Springs::of(*figure.skeleton), figure.springs);
-    EXPECT_TRUE(none->addTo(*figure.skeleton));
-    EXPECT_EQ(Springs::of(*figure.skeleton), none);
+    const osg::ref_ptr<SpringBones> none = new SpringBones(SpringSettings(), toWorld());
+    EXPECT_EQ(find<SpringBones>(*figure.skeleton), figure.springs);
+    osgSkin::attach(*figure.skeleton, *none);
+    EXPECT_EQ(find<SpringBones>(*figure.skeleton), none);
     figure.frame();
     EXPECT_LT(figure.degreesTo(kBack), 1e-4);
 }
 
-TEST(Springs, NeedABone) {
+TEST(SpringBones, NeedABone) {
     const osg::ref_ptr<osgAnimation::Skeleton> empty = new osgAnimation::Skeleton;
-    const osg::ref_ptr<Springs> springs = new Springs;
-    EXPECT_FALSE(springs->addTo(*empty));
+    const osg::ref_ptr<SpringBones> springs = new SpringBones;
+    EXPECT_THROW(osgSkin::attach(*empty, *springs), osgSkin::Error);
 }
 
-class SavedSprings : public testing::TestWithParam<const char*> {};
+class SavedSpringBones : public testing::TestWithParam<const char*> {};
 
-TEST_P(SavedSprings, SwingAsBefore) {
+TEST_P(SavedSpringBones, SwingAsBefore) {
     SpringSettings settings = tailSprings("Neck");
     settings.colliders.push_back({"Head", {0, 148, -22}, {1, 148, -22}, 9.0});
     settings.chains[0].colliders = {0};
@@ -309,7 +312,7 @@ TEST_P(SavedSprings, SwingAsBefore) {
     ASSERT_TRUE(read);
     const auto skeletons = test::findNodes<osgAnimation::Skeleton>(*read);
     ASSERT_EQ(skeletons.size(), 1u);
-    const Springs* const springs = Springs::of(*skeletons[0].node);
+    const SpringBones* const springs = find<SpringBones>(*skeletons[0].node);
     ASSERT_TRUE(springs);
     EXPECT_EQ(springs->getToWorld(), toWorld());
     const SpringSettings& found = springs->getSettings();
@@ -333,11 +336,11 @@ TEST_P(SavedSprings, SwingAsBefore) {
     }
     const osg::ref_ptr<osg::Node> copy = osg::clone(read.get(), osg::CopyOp::DEEP_COPY_ALL);
     const auto copied = test::findNodes<osgAnimation::Skeleton>(*copy);
-    EXPECT_TRUE(Springs::of(*copied[0].node));
-    EXPECT_NE(Springs::of(*copied[0].node), springs);
+    EXPECT_TRUE(find<SpringBones>(*copied[0].node));
+    EXPECT_NE(find<SpringBones>(*copied[0].node), springs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Springs, SavedSprings, testing::Values("osgb", "osgt", "osgx"));
+INSTANTIATE_TEST_SUITE_P(SpringBones, SavedSpringBones, testing::Values("osgb", "osgt", "osgx"));
 
 TEST(SpringsBelow, TakesTipsFromTheSkeleton) {
     osgSkin::RestSkeleton rig = tailRig();

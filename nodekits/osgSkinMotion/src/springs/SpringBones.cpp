@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkinMotion/Springs>
+#include <osgSkinMotion/SpringBones>
 
 #include "bones/BoneCallbacks.h"
+#include "bones/Figure.h"
 #include "springs/SpringChains.h"
+#include "springs/SpringMemory.h"
 
 #include <osgSkin/BoneReader>
 #include <osgSkin/Error>
@@ -35,10 +37,43 @@ int depthOf(const Bone& bone) {
     return depth;
 }
 
+struct Entry {
+    int depth;
+    osgAnimation::Bone* bone;
+    const SpringSettings::Joint* joint;
+    const SpringSettings::Chain* chain;
+};
+
+/// The chains' joints that the skeleton has, those nearer to the root first.
+template <typename Find>
+std::vector<Entry> fromTheRoot(const SpringSettings& settings, const Find& find) {
+    std::vector<Entry> entries;
+    for (const SpringSettings::Chain& chain : settings.chains)
+        for (const SpringSettings::Joint& joint : chain.joints)
+            if (osgAnimation::Bone* const bone = find(joint.name))
+                entries.push_back({depthOf(*bone), bone, &joint, &chain});
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.depth < b.depth; });
+    return entries;
+}
+
+using GroupJoint = std::pair<std::size_t, int>; ///< a group, and a joint of it
+
+/// The nearest of a group's joints above a bone; -1: none.
+int parentIn(const std::map<const osgAnimation::Bone*, GroupJoint>& joints,
+             const osgAnimation::Bone& bone, std::size_t group) {
+    for (const osgAnimation::Bone* above = bone.getBoneParent(); above != nullptr;
+         above = above->getBoneParent())
+        if (const auto known = joints.find(above);
+            known != joints.end() && known->second.first == group)
+            return known->second.second;
+    return -1;
+}
+
 } // namespace
 
 /// The springs of one skeleton. Does not keep bones alive, which own it.
-class Springs::Swing {
+class SpringBones::Swing {
 public:
     Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& settings,
           const osg::Matrixd& toWorld);
@@ -51,6 +86,10 @@ public:
 
     /// \param place from the skeleton to the world
     void move(const osg::Matrixd& place, double seconds);
+
+    SpringMemory remember() const;
+    /// Goes on from there, if it is of the same bones.
+    void recall(const SpringMemory& memory);
 
 private:
     struct SwungBone {
@@ -81,8 +120,8 @@ private:
     std::vector<Group> _groups; ///< those of bones nearer to the root first
 };
 
-Springs::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& settings,
-                      const osg::Matrixd& toWorld)
+SpringBones::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& settings,
+                          const osg::Matrixd& toWorld)
     : _skeleton(&skeleton), _metresPerUnit(scaleOf(toWorld)) {
     const osgAnimation::BoneMap bones = bonesOf(skeleton);
     const auto find = [&](const std::string& name) -> Bone* {
@@ -91,24 +130,11 @@ Springs::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& se
         Bone* const bone = found->second;
         return scaleOf(bone->getInvBindMatrixInSkeletonSpace()) > 0.0 ? bone : nullptr;
     };
-    struct Entry {
-        int depth;
-        Bone* bone;
-        const SpringSettings::Joint* joint;
-        const SpringSettings::Chain* chain;
-    };
-    std::vector<Entry> entries;
-    for (const SpringSettings::Chain& chain : settings.chains)
-        for (const SpringSettings::Joint& joint : chain.joints)
-            if (Bone* const bone = find(joint.name))
-                entries.push_back({depthOf(*bone), bone, &joint, &chain});
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.depth < b.depth; });
-    std::map<std::string, std::size_t> groups;                 // by centre
-    std::map<const Bone*, std::pair<std::size_t, int>> places; // group, joint
-    std::vector<std::map<std::size_t, std::size_t>> hits;      // by collider, [group]
+    std::map<std::string, std::size_t> groups; // by centre
+    std::map<const Bone*, GroupJoint> places;
+    std::vector<std::map<std::size_t, std::size_t>> hits; // by collider, [group]
     const glm::dquat turn = _metresPerUnit > 0.0 ? axesOf(toWorld) : glm::dquat(1, 0, 0, 0);
-    for (const Entry& entry : entries) {
+    for (const Entry& entry : fromTheRoot(settings, find)) {
         const std::size_t g = groups.emplace(entry.chain->centre, _groups.size()).first->second;
         if (g == _groups.size()) {
             _groups.emplace_back();
@@ -125,11 +151,7 @@ Springs::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& se
         joint.drag = from.drag;
         joint.radius = from.radius * _metresPerUnit;
         joint.gravity = turn * from.gravity;
-        for (const Bone* above = entry.bone->getBoneParent(); above != nullptr && joint.parent < 0;
-             above = above->getBoneParent())
-            if (const auto known = places.find(above);
-                known != places.end() && known->second.first == g)
-                joint.parent = known->second.second;
+        joint.parent = parentIn(places, *entry.bone, g);
         for (const std::size_t index : entry.chain->colliders) {
             if (index >= settings.colliders.size()) continue;
             const SpringSettings::Collider& collider = settings.colliders[index];
@@ -156,7 +178,7 @@ Springs::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings& se
     }
 }
 
-bool Springs::Swing::fits(const osgAnimation::Skeleton& skeleton) const {
+bool SpringBones::Swing::fits(const osgAnimation::Skeleton& skeleton) const {
     if (&skeleton != _skeleton) return false;
     for (const Group& group : _groups) {
         if (group.hasCentre && !group.centre.valid()) return false;
@@ -168,7 +190,7 @@ bool Springs::Swing::fits(const osgAnimation::Skeleton& skeleton) const {
     return true;
 }
 
-void Springs::Swing::restore() {
+void SpringBones::Swing::restore() {
     for (Group& group : _groups)
         for (SwungBone& each : group.bones) {
             Bone& bone = *each.bone;
@@ -180,12 +202,12 @@ void Springs::Swing::restore() {
         }
 }
 
-void Springs::Swing::move(const osg::Matrixd& place, double seconds) {
+void SpringBones::Swing::move(const osg::Matrixd& place, double seconds) {
     restore();
     for (Group& group : _groups) move(group, place, seconds);
 }
 
-void Springs::Swing::move(Group& group, const osg::Matrixd& place, double seconds) const {
+void SpringBones::Swing::move(Group& group, const osg::Matrixd& place, double seconds) const {
     const osg::Matrixd toSpace =
         group.hasCentre && scaleOf(group.centre->getMatrixInSkeletonSpace()) > 0.0
             ? osg::Matrixd::inverse(group.centre->getMatrixInSkeletonSpace())
@@ -219,35 +241,85 @@ void Springs::Swing::move(Group& group, const osg::Matrixd& place, double second
     }
 }
 
-Springs::Springs() : _settings(std::make_shared<SpringSettings>()) {}
+SpringMemory SpringBones::Swing::remember() const {
+    SpringMemory result;
+    for (const Group& group : _groups) {
+        if (!group.chains.isMoving()) return {};
+        SpringMemory::Group& kept = result.groups.emplace_back();
+        kept.colliders = group.chains.frame().colliders;
+        for (std::size_t i = 0; i < group.bones.size(); ++i) {
+            if (!group.bones[i].bone.valid()) return {};
+            kept.bones.push_back({group.bones[i].bone->getName(), group.bones[i].base,
+                                  group.chains.states()[i], group.chains.tips()[i],
+                                  group.chains.frame().bones[i]});
+        }
+    }
+    return result;
+}
 
-Springs::Springs(const SpringSettings& settings, const osg::Matrixd& toWorld) {
+void SpringBones::Swing::recall(const SpringMemory& memory) {
+    if (memory.groups.size() != _groups.size()) return;
+    for (std::size_t g = 0; g < _groups.size(); ++g) {
+        const SpringMemory::Group& from = memory.groups[g];
+        Group& to = _groups[g];
+        if (from.bones.size() != to.bones.size() || from.colliders.size() != to.hits.size()) return;
+        std::vector<SpringChains::State> states;
+        std::vector<glm::dvec3> tips;
+        SpringChains::Frame frame;
+        frame.colliders = from.colliders;
+        for (std::size_t i = 0; i < to.bones.size(); ++i) {
+            const SpringMemory::Bone& bone = from.bones[i];
+            if (bone.name != to.bones[i].bone->getName()) return;
+            states.push_back(bone.state);
+            tips.push_back(bone.tip);
+            frame.bones.push_back(bone.pose);
+        }
+        for (std::size_t i = 0; i < to.bones.size(); ++i) {
+            to.bones[i].base = from.bones[i].base;
+            to.bones[i].swung = to.bones[i].bone->getMatrix();
+        }
+        to.chains.recall(states, tips, frame);
+    }
+}
+
+SpringBones::SpringBones() : _settings(std::make_shared<SpringSettings>()) {}
+
+SpringBones::SpringBones(const SpringSettings& settings, const osg::Matrixd& toWorld) {
     set(settings, toWorld);
 }
 
-Springs::Springs(const Springs& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+SpringBones::SpringBones(const SpringBones& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), Attachment(other, copyop),
       _settings(other._settings), _toWorld(other._toWorld), _enabled(other._enabled) {}
 
-Springs::~Springs() = default;
+SpringBones::~SpringBones() = default;
 
-Springs* Springs::of(osgAnimation::Skeleton& skeleton) {
-    return callbackOf<Springs>(skeleton);
+osg::ref_ptr<SpringBones> SpringBones::create(osg::Node& root, const SpringSettings& settings) {
+    return new SpringBones(settings, findFigure(root, "spring bones").toWorld);
 }
 
-bool Springs::addTo(osgAnimation::Skeleton& skeleton) {
-    if (!addLast(*this, skeleton)) return false;
-    reset();
-    return true;
+osg::Node& SpringBones::nodeFor(osg::Node& root) const {
+    return topBoneOf(findFigure(root, "spring bones"));
 }
 
-void Springs::set(const SpringSettings& settings, const osg::Matrixd& toWorld) {
+void SpringBones::set(const SpringSettings& settings, const osg::Matrixd& toWorld) {
     _settings = std::make_shared<SpringSettings>(settings);
     _toWorld = toWorld;
     reset();
 }
 
-void Springs::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+void SpringBones::reset() {
+    _swing = nullptr;
+    _memory = nullptr;
+}
+
+std::shared_ptr<SpringMemory> SpringBones::remember() const {
+    return std::make_shared<SpringMemory>(_swing    ? _swing->remember()
+                                          : _memory ? *_memory
+                                                    : SpringMemory());
+}
+
+void SpringBones::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     traverse(node, nv);
     if (!nv || !nv->getFrameStamp()) return;
     static thread_local osg::NodePath path; // keeps its memory
@@ -261,7 +333,11 @@ void Springs::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return;
     }
     const double seconds = _swing ? time - _time : 0.0;
-    if (!_swing) _swing = std::make_shared<Swing>(skeleton, *_settings, _toWorld);
+    if (!_swing) {
+        _swing = std::make_shared<Swing>(skeleton, *_settings, _toWorld);
+        if (_memory) _swing->recall(*_memory);
+        _memory = nullptr;
+    }
     _swing->move(osg::computeLocalToWorld(path), seconds);
     _time = time;
 }

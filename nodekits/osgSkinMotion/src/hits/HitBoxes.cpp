@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkinMotion/HitShapes>
+#include <osgSkinMotion/HitBoxes>
 
 #include "bones/BoneCallbacks.h"
 #include "hits/FitShapes.h"
@@ -32,8 +32,8 @@
 namespace osgSkin {
 namespace {
 
-using Shape = HitShapes::Shape;
-using Limb = HitShapes::Limb;
+using Shape = HitBoxes::Shape;
+using Limb = HitBoxes::Limb;
 
 constexpr double kCell = 1.0 / 300.0; ///< of the figure's size; vertices nearer are one
 
@@ -143,7 +143,7 @@ Figure figureOf(const ClipCharacter& character, const RestSkeleton& rest) {
                 add(
                     *part->asGeometry(), character.toWorld(),
                     [joint = find(rigid.joint)](std::size_t) { return joint; }, figure);
-    if (figure.triangles.empty()) throw Error("hit shapes: the character has no triangles");
+    if (figure.triangles.empty()) throw Error("hit boxes: the character has no triangles");
     return figure;
 }
 
@@ -236,7 +236,7 @@ std::vector<LimbSurface> cutLimbs(const Figure& figure, std::size_t joints) {
 }
 
 std::vector<Limb> fitLimbs(const ClipCharacter& character, const RestSkeleton& rest,
-                           const HitShapes::Options& options) {
+                           const HitBoxes::Options& options) {
     Figure figure = figureOf(character, rest);
     const double volume = volumeOf(figure);
     simplify(figure);
@@ -411,44 +411,45 @@ void placeBones(osgAnimation::Bone& bone,
 
 } // namespace
 
-double HitShapes::Shape::volume() const {
+double HitBoxes::Shape::volume() const {
     if (kind == Kind::Box) return 8.0 * half.x() * half.y() * half.z();
     return osg::PI * half.x() * half.x() * (2.0 * half.z() + 4.0 / 3.0 * half.x());
 }
 
-HitShapes::HitShapes() : _limbs(std::make_shared<std::vector<Limb>>()) {}
-HitShapes::~HitShapes() = default;
+HitBoxes::HitBoxes() : _limbs(std::make_shared<std::vector<Limb>>()) {}
+HitBoxes::~HitBoxes() = default;
 
-HitShapes::HitShapes(const HitShapes& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+HitBoxes::HitBoxes(const HitBoxes& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), Attachment(other, copyop),
       _limbs(other._limbs), _toFigure(other._toFigure), _toRest(other._toRest),
       _motions(other._motions) {}
 
-osg::ref_ptr<HitShapes> HitShapes::addTo(osg::Node& character, const Options& options) {
-    const osg::ref_ptr<ClipCharacter> parts = ClipCharacter::create(character);
+osg::ref_ptr<HitBoxes> HitBoxes::create(osg::Node& root, const Options& options) {
+    const osg::ref_ptr<ClipCharacter> parts = ClipCharacter::create(root);
     const RestSkeleton rest = readSkeleton(parts->skeleton());
     Options possible = options;
     possible.inside = possible.inside >= 0.5 ? std::min(possible.inside, 1.0) : 0.5;
     possible.maxShapes = std::max(options.maxShapes, 1u);
-    const osg::ref_ptr<HitShapes> result = new HitShapes;
+    const osg::ref_ptr<HitBoxes> result = new HitBoxes;
     result->_limbs = std::make_shared<std::vector<Limb>>(fitLimbs(*parts, rest, possible));
     result->_toFigure = parts->toWorld();
     result->_toRest = osg::Matrixd::inverse(result->_toFigure);
     result->_motions.resize(result->_limbs->size());
-    character.addUpdateCallback(result);
-    result->findBones(character);
-    result->update();
     return result;
 }
 
-int HitShapes::find(const std::string& joint) const {
+void HitBoxes::onAttach(osg::Node& root) {
+    findBones(root);
+    update();
+}
+
+int HitBoxes::find(const std::string& joint) const {
     for (std::size_t i = 0; i < _limbs->size(); ++i)
         if ((*_limbs)[i].joint == joint) return static_cast<int>(i);
     return -1;
 }
 
-std::optional<HitShapes::Hit> HitShapes::pick(const osg::Vec3d& start,
-                                              const osg::Vec3d& end) const {
+std::optional<HitBoxes::Hit> HitBoxes::pick(const osg::Vec3d& start, const osg::Vec3d& end) const {
     osg::Vec3d direction = end - start;
     double length = direction.normalize();
     if (!start.valid() || !end.valid() || !std::isfinite(length)) return std::nullopt;
@@ -473,7 +474,7 @@ std::optional<HitShapes::Hit> HitShapes::pick(const osg::Vec3d& start,
     return first;
 }
 
-std::optional<HitShapes::Hit> HitShapes::nearest(const osg::Vec3d& point) const {
+std::optional<HitBoxes::Hit> HitBoxes::nearest(const osg::Vec3d& point) const {
     if (!std::isfinite(point.length2())) return std::nullopt;
     std::optional<Hit> best;
     for (std::size_t i = 0; i < _limbs->size(); ++i)
@@ -488,9 +489,9 @@ std::optional<HitShapes::Hit> HitShapes::nearest(const osg::Vec3d& point) const 
     return best;
 }
 
-osg::ref_ptr<osg::Node> HitShapes::makeLines() {
+osg::ref_ptr<osg::Node> HitBoxes::makeLines() {
     const osg::ref_ptr<osg::Group> lines = new osg::Group;
-    lines->setName("hit shapes");
+    lines->setName("hit boxes");
     lines->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     for (const Limb& limb : *_limbs)
         for (const Shape& shape : limb.shapes) {
@@ -505,7 +506,7 @@ osg::ref_ptr<osg::Node> HitShapes::makeLines() {
     return lines;
 }
 
-void HitShapes::findBones(osg::Node& character) {
+void HitBoxes::findBones(osg::Node& character) {
     if (_character == &character) return;
     const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(character);
     _bones.assign(_limbs->size(), {});
@@ -516,7 +517,7 @@ void HitShapes::findBones(osg::Node& character) {
     _character = &character;
 }
 
-void HitShapes::update() {
+void HitBoxes::update() {
     for (std::size_t i = 0; i < _bones.size(); ++i) {
         const int parent = (*_limbs)[i].parent;
         if (const osgAnimation::Bone* bone = _bones[i].get()) {
@@ -536,7 +537,7 @@ void HitShapes::update() {
                 .setMatrix(shape.frame * _motions[i]);
 }
 
-bool HitShapes::takePose(const std::vector<osg::Matrixd>& motions) {
+bool HitBoxes::takePose(const std::vector<osg::Matrixd>& motions) {
     const auto isValid = [](const osg::Matrixd& motion) { return motion.valid(); };
     if (motions.size() != _limbs->size() || _bones.size() != _limbs->size() ||
         !std::all_of(motions.begin(), motions.end(), isValid))
@@ -561,7 +562,7 @@ bool HitShapes::takePose(const std::vector<osg::Matrixd>& motions) {
     return true;
 }
 
-void HitShapes::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+void HitBoxes::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     traverse(node, nv); // bones are posed
     if (!node) return;
     findBones(*node);

@@ -8,7 +8,7 @@
 #include <osgSkin/RigidPart>
 #include <osgSkin/SkinHit>
 #include <osgSkinCharacter/LoadCharacter>
-#include <osgSkinMotion/HitShapes>
+#include <osgSkinMotion/HitBoxes>
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,9 @@
 
 namespace {
 
+using osgSkin::attach;
 using osgSkin::Character;
-using osgSkin::HitShapes;
+using osgSkin::HitBoxes;
 
 /// Frames of a clip that are shown, as a file numbers them.
 struct Frames {
@@ -68,34 +69,34 @@ std::string skinFile(const Figure& figure) {
 }
 
 /// \param p in the shape's frame
-bool isInside(const HitShapes::Shape& shape, const osg::Vec3d& p) {
-    if (shape.kind == HitShapes::Shape::Kind::Box)
+bool isInside(const HitBoxes::Shape& shape, const osg::Vec3d& p) {
+    if (shape.kind == HitBoxes::Shape::Kind::Box)
         return std::abs(p.x()) <= shape.half.x() && std::abs(p.y()) <= shape.half.y() &&
                std::abs(p.z()) <= shape.half.z();
     const double over = std::max(0.0, std::abs(p.z()) - shape.half.z());
     return osg::Vec3d(p.x(), p.y(), over).length() <= shape.half.x();
 }
 
-bool isInside(const HitShapes& hits, std::size_t limb, const osg::Vec3d& point) {
+bool isInside(const HitBoxes& hits, std::size_t limb, const osg::Vec3d& point) {
     const auto& shapes = hits.limbs()[limb].shapes;
-    return std::any_of(shapes.begin(), shapes.end(), [&](const HitShapes::Shape& shape) {
+    return std::any_of(shapes.begin(), shapes.end(), [&](const HitBoxes::Shape& shape) {
         return isInside(shape, point * osg::Matrixd::inverse(shape.frame * hits.motion(limb)));
     });
 }
 
-double volumeOf(const HitShapes& hits) {
+double volumeOf(const HitBoxes& hits) {
     double sum = 0.0;
-    for (const HitShapes::Limb& limb : hits.limbs())
-        for (const HitShapes::Shape& shape : limb.shapes) sum += shape.volume();
+    for (const HitBoxes::Limb& limb : hits.limbs())
+        for (const HitBoxes::Shape& shape : limb.shapes) sum += shape.volume();
     return sum;
 }
 
 /// The volume of the space that the shapes fill at rest, where overlaps count once, by a grid.
-double filledBy(const HitShapes& hits) {
-    std::vector<std::pair<const HitShapes::Shape*, osg::Matrixd>> shapes; // and into their frames
+double filledBy(const HitBoxes& hits) {
+    std::vector<std::pair<const HitBoxes::Shape*, osg::Matrixd>> shapes; // and into their frames
     osg::BoundingBoxd box;
-    for (const HitShapes::Limb& limb : hits.limbs())
-        for (const HitShapes::Shape& shape : limb.shapes) {
+    for (const HitBoxes::Limb& limb : hits.limbs())
+        for (const HitBoxes::Shape& shape : limb.shapes) {
             shapes.emplace_back(&shape, osg::Matrixd::inverse(shape.frame));
             box.expandBy(
                 osg::BoundingSphered(shape.frame.getTrans(), shape.half.length() + shape.half.x()));
@@ -127,7 +128,7 @@ double volumeOf(const Character& character) {
 }
 
 /// The limb of a joint: its own, or that of the nearest joint above that has one.
-std::size_t limbOf(const Character& character, const HitShapes& hits, int joint) {
+std::size_t limbOf(const Character& character, const HitBoxes& hits, int joint) {
     while (joint >= 0) {
         const auto& at = character.rest.joints[std::size_t(joint)];
         if (const int limb = hits.find(at.name); limb >= 0) return std::size_t(limb);
@@ -145,7 +146,7 @@ int jointOf(const osgSkin::Binding& binding, std::size_t vertex) {
 }
 
 /// The part of the posed vertices that are inside the shapes of their own limb.
-double insideOf(const Character& character, const HitShapes& hits) {
+double insideOf(const Character& character, const HitBoxes& hits) {
     std::size_t inside = 0, all = 0;
     const auto count = [&](const osg::Geometry& geometry, const osg::Matrixd& toWorld,
                            const auto& limb) {
@@ -176,7 +177,7 @@ TEST_P(Fitted, ContainsTheSkinInAllPoses) {
     const std::string file = skinFile(GetParam());
     if (file.empty()) GTEST_SKIP() << "needs ../shared/data/makehuman";
     Character character = osgSkin::loadCharacter(file);
-    const osg::ref_ptr<HitShapes> hits = HitShapes::addTo(*character.root);
+    const osg::ref_ptr<HitBoxes> hits = attach<HitBoxes>(*character.root);
     std::size_t shapes = 0;
     for (const auto& limb : hits->limbs()) shapes += limb.shapes.size();
     const double volumes = volumeOf(*hits) / volumeOf(character);
@@ -239,7 +240,7 @@ protected:
 
     Character character;
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
-    osg::ref_ptr<HitShapes> hits;
+    osg::ref_ptr<HitBoxes> hits;
 };
 
 /// Where a bone carries a point that is given at rest.
@@ -252,15 +253,15 @@ osg::Vec3d carried(const osgAnimation::Bone& bone, const osg::Matrixd& toWorld,
 } // namespace
 
 TEST_F(Pedestrian, HasLimbsWithParentsFirst) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     std::set<std::string> joints;
     for (std::size_t i = 0; i < hits->limbs().size(); ++i) {
-        const HitShapes::Limb& at = hits->limbs()[i];
+        const HitBoxes::Limb& at = hits->limbs()[i];
         EXPECT_TRUE(joints.insert(at.joint).second) << at.joint;
         EXPECT_LT(at.parent, int(i));
         EXPECT_EQ(at.parent < 0, i == 0) << at.joint;
         ASSERT_FALSE(at.shapes.empty());
-        for (const HitShapes::Shape& shape : at.shapes) EXPECT_GT(shape.volume(), 0.0);
+        for (const HitBoxes::Shape& shape : at.shapes) EXPECT_GT(shape.volume(), 0.0);
         const osg::Vec3d centre =
             osg::Vec3d(
                 osg::Matrixd::inverse(character.bone(at.joint)->getInvBindMatrixInSkeletonSpace())
@@ -274,19 +275,19 @@ TEST_F(Pedestrian, HasLimbsWithParentsFirst) {
 }
 
 TEST_F(Pedestrian, HasOneShapeALimbIfAsked) {
-    HitShapes::Options options;
+    HitBoxes::Options options;
     options.maxShapes = 0; // clamped
     options.smallest = 0.004;
-    hits = HitShapes::addTo(*character.root, options);
+    hits = attach<HitBoxes>(*character.root, options);
     EXPECT_GE(hits->limbs().size(), 15u);
     EXPECT_LE(hits->limbs().size(), 20u);
-    for (const HitShapes::Limb& at : hits->limbs()) EXPECT_EQ(at.shapes.size(), 1u) << at.joint;
+    for (const HitBoxes::Limb& at : hits->limbs()) EXPECT_EQ(at.shapes.size(), 1u) << at.joint;
     EXPECT_LT(volumeOf(*hits), 2.4 * volumeOf(character));
     EXPECT_GT(insideOf(character, *hits), 0.9);
 }
 
 TEST_F(Pedestrian, IsPickedAsItsSkinIs) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     show(0.3);
     int both = 0, skinOnly = 0, near = 0, sameLimb = 0;
     double sum = 0.0;
@@ -324,7 +325,7 @@ TEST_F(Pedestrian, IsPickedAsItsSkinIs) {
 }
 
 TEST_F(Pedestrian, IsMissedBesideIt) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     EXPECT_FALSE(hits->pick({2, -2, 1}, {2, 2, 1}));
     EXPECT_FALSE(hits->pick({0, -2, 1}, {0, -1, 1})) << "ends before it";
     EXPECT_FALSE(hits->pick({0, -2, 1}, {0, -3, 1})) << "away from it";
@@ -336,7 +337,7 @@ TEST_F(Pedestrian, IsMissedBesideIt) {
 }
 
 TEST_F(Pedestrian, HasDistances) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     for (const osg::Vec3d& point : {osg::Vec3d(0.5, -0.3, 1.2), osg::Vec3d(0, 0, 2.0),
                                     osg::Vec3d(-0.3, 0.4, 0.2), osg::Vec3d(0, 0.0, 1.1)}) {
         const auto nearest = hits->nearest(point);
@@ -353,11 +354,11 @@ TEST_F(Pedestrian, HasDistances) {
 }
 
 TEST_F(Pedestrian, MovesWithItsBones) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     for (const double time : {0.2, 0.5, 0.7}) {
         show(time);
         for (std::size_t i = 0; i < hits->limbs().size(); ++i) {
-            const HitShapes::Limb& at = hits->limbs()[i];
+            const HitBoxes::Limb& at = hits->limbs()[i];
             const osg::Vec3d point = at.shapes[0].frame.getTrans() + osg::Vec3d(0.1, 0.2, 0.3);
             const osg::Vec3d expected =
                 carried(*character.bone(at.joint), character.toWorld, point);
@@ -367,7 +368,7 @@ TEST_F(Pedestrian, MovesWithItsBones) {
 }
 
 TEST_F(Pedestrian, StaysInTheFiguresSpace) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     show(0.3);
     const osg::Matrixd before = hits->motion(3);
     place->setMatrix(osg::Matrixd::translate(7, 8, 9)); // the application's own
@@ -376,7 +377,7 @@ TEST_F(Pedestrian, StaysInTheFiguresSpace) {
 }
 
 TEST_F(Pedestrian, IgnoresScalesOfBones) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     osgAnimation::Bone& bone = *character.boneByRole("Head");
     bone.setMatrixInSkeletonSpace(osg::Matrixd::scale(2, 3, 4) *
                                   osg::Matrixd(bone.getMatrixInSkeletonSpace()));
@@ -391,7 +392,7 @@ TEST_F(Pedestrian, IgnoresScalesOfBones) {
 }
 
 TEST_F(Pedestrian, KeepsThePoseWhereABoneIsNotFinite) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     show(0.3);
     const std::size_t arm = limb("LeftUpperArm");
     const osg::Matrixd before = hits->motion(arm);
@@ -404,7 +405,7 @@ TEST_F(Pedestrian, KeepsThePoseWhereABoneIsNotFinite) {
 }
 
 TEST_F(Pedestrian, CarriesLimbsWhoseBoneIsMissing) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     osgAnimation::Bone& arm = *character.boneByRole("LeftUpperArm");
     const osg::ref_ptr<osgAnimation::Bone> forearm = character.boneByRole("LeftLowerArm");
     const std::size_t upper = limb("LeftUpperArm"), lower = limb("LeftLowerArm");
@@ -414,9 +415,9 @@ TEST_F(Pedestrian, CarriesLimbsWhoseBoneIsMissing) {
         osg::clone(character.root.get(),
                    osg::CopyOp(osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS));
     test::updateAt(*copy, 0.3);
-    const HitShapes* copied = nullptr;
+    const HitBoxes* copied = nullptr;
     for (osg::Callback* c = copy->getUpdateCallback(); c; c = c->getNestedCallback())
-        if (auto* found = dynamic_cast<HitShapes*>(c)) copied = found;
+        if (auto* found = dynamic_cast<HitBoxes*>(c)) copied = found;
     ASSERT_TRUE(copied);
     EXPECT_EQ(&copied->limbs(), &hits->limbs()) << "shared";
     EXPECT_NE(copied->motion(upper), before);
@@ -425,7 +426,7 @@ TEST_F(Pedestrian, CarriesLimbsWhoseBoneIsMissing) {
 }
 
 TEST_F(Pedestrian, TakesThePoseThatItGives) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     show(0.3);
     std::vector<osg::Matrixd> pose;
     for (std::size_t i = 0; i < hits->limbs().size(); ++i)
@@ -435,7 +436,7 @@ TEST_F(Pedestrian, TakesThePoseThatItGives) {
             traverse(node, nv);
             EXPECT_TRUE(hits->takePose(*pose));
         }
-        HitShapes* hits = nullptr;
+        HitBoxes* hits = nullptr;
         const std::vector<osg::Matrixd>* pose = nullptr;
     };
     const osg::ref_ptr<Take> take = new Take;
@@ -453,7 +454,7 @@ TEST_F(Pedestrian, TakesThePoseThatItGives) {
 }
 
 TEST_F(Pedestrian, KeepsLengthsOfBonesThatArePulledApart) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     std::vector<osg::Matrixd> pose(hits->limbs().size());
     const std::size_t arm = limb("LeftLowerArm");
     const osg::Vec3d elbow = hits->limbs()[arm].centre;
@@ -468,7 +469,7 @@ TEST_F(Pedestrian, KeepsLengthsOfBonesThatArePulledApart) {
 }
 
 TEST_F(Pedestrian, RefusesUnusablePoses) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     std::vector<osg::Matrixd> pose(hits->limbs().size());
     pose[2](3, 0) = std::nan("");
     const osg::Matrixd before = hits->motion(2);
@@ -476,24 +477,24 @@ TEST_F(Pedestrian, RefusesUnusablePoses) {
     EXPECT_FALSE(hits->takePose({}));
     hits->update();
     EXPECT_EQ(hits->motion(2), before);
-    EXPECT_TRUE((new HitShapes)->limbs().empty());
+    EXPECT_TRUE((new HitBoxes)->limbs().empty());
 }
 
 TEST_F(Pedestrian, IsShownByLines) {
-    hits = HitShapes::addTo(*character.root);
+    hits = attach<HitBoxes>(*character.root);
     const osg::ref_ptr<osg::Node> lines = hits->makeLines();
     show(0.3);
     const osg::Group& group = *lines->asGroup();
     std::size_t next = 0;
     for (std::size_t i = 0; i < hits->limbs().size(); ++i)
-        for (const HitShapes::Shape& shape : hits->limbs()[i].shapes) {
+        for (const HitBoxes::Shape& shape : hits->limbs()[i].shapes) {
             const auto& at = dynamic_cast<const osg::MatrixTransform&>(
                 *group.getChild(static_cast<unsigned int>(next++)));
             EXPECT_EQ(at.getMatrix(), shape.frame * hits->motion(i));
             const osg::BoundingBox box = at.getChild(0)->asGeometry()->getBoundingBox();
             const double high =
                 shape.half.z() +
-                (shape.kind == HitShapes::Shape::Kind::Capsule ? shape.half.x() : 0.0);
+                (shape.kind == HitBoxes::Shape::Kind::Capsule ? shape.half.x() : 0.0);
             EXPECT_NEAR(box.zMax(), high, 1e-5);
             EXPECT_NEAR(box.xMin(), -shape.half.x(), 1e-5);
             EXPECT_NEAR(box.yMax(), shape.half.y(), 1e-5);
@@ -502,10 +503,10 @@ TEST_F(Pedestrian, IsShownByLines) {
 }
 
 TEST_F(Pedestrian, LeavesPropsOut) {
-    const double plain = volumeOf(*HitShapes::addTo(*character.root));
+    const double plain = volumeOf(*attach<HitBoxes>(*character.root));
     Character armed = osgSkin::loadCharacter(OSGSKIN_DATA "/pedestrian.skin");
     const osg::ref_ptr<osg::Geometry> sword =
         osg::createTexturedQuadGeometry({0, 0, 0}, {3, 0, 0}, {0, 0, 3});
     armed.boneByRole("RightHand")->addChild(sword);
-    EXPECT_NEAR(volumeOf(*HitShapes::addTo(*armed.root)), plain, 1e-9);
+    EXPECT_NEAR(volumeOf(*attach<HitBoxes>(*armed.root)), plain, 1e-9);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <osgSkinMotion/GroundFeet>
+#include <osgSkinMotion/FootPlacement>
 
 #include "bones/BoneCallbacks.h"
+#include "bones/Figure.h"
 #include "bones/TwoBone.h"
 #include "feet/Legs.h"
 #include "ground/LegsOnGround.h"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -29,7 +31,7 @@ namespace {
 constexpr double kRange = 0.6; ///< leg lengths above and below the clips' floor
 
 bool intersect(osg::Node& node, osg::Node::NodeMask mask, const osg::Vec3d& above,
-               const osg::Vec3d& below, GroundFeet::Surface& surface) {
+               const osg::Vec3d& below, FootPlacement::Surface& surface) {
     const osg::NodePathList paths = node.getParentalNodePaths();
     osg::NodePath path = paths.empty() ? osg::NodePath() : paths.front();
     if (!path.empty()) path.pop_back(); // the visitor takes the node's own transform
@@ -51,28 +53,30 @@ bool intersect(osg::Node& node, osg::Node::NodeMask mask, const osg::Vec3d& abov
 
 } // namespace
 
-GroundFeet::GroundFeet() = default;
-GroundFeet::~GroundFeet() = default;
+FootPlacement::FootPlacement() = default;
+FootPlacement::~FootPlacement() = default;
 
-GroundFeet::GroundFeet(const GroundFeet& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
-      _legs(other._legs), _toLevel(other._toLevel), _floor(other._floor), _leg(other._leg),
-      _ground(other._ground), _weight(other._weight) {}
+FootPlacement::FootPlacement(const FootPlacement& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), Attachment(other, copyop),
+      _topName(other._topName), _legs(other._legs), _toLevel(other._toLevel), _floor(other._floor),
+      _leg(other._leg), _ground(other._ground), _weight(other._weight) {}
 
-osg::ref_ptr<GroundFeet> GroundFeet::addTo(osg::Node& character) {
-    const osg::ref_ptr<ClipCharacter> parts = ClipCharacter::create(character);
+osg::ref_ptr<FootPlacement> FootPlacement::create(osg::Node& root) {
+    const Figure figure = findFigure(root, "foot placement");
+    const osg::ref_ptr<ClipCharacter> parts = ClipCharacter::create(root);
     const RestSkeleton rest = readSkeleton(parts->skeleton());
     const JointRoles roles = recogniseJoints(rest);
     const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(parts->skeleton());
     const auto boneOf = [&](std::size_t joint) {
         const std::string& name = rest.joints[joint].name;
         const auto bone = bones.find(name);
-        if (bone == bones.end()) throw Error("ground: no bone \"" + name + "\"");
+        if (bone == bones.end()) figure.fail("no bone \"" + name + '"');
         return bone->second;
     };
-    const osg::ref_ptr<GroundFeet> result = new GroundFeet;
+    const osg::ref_ptr<FootPlacement> result = new FootPlacement;
     result->_toLevel = parts->toWorld();
-    RestLegs legs = findLegs(rest, roles, toGlm(result->_toLevel), {}, "ground");
+    RestLegs legs = findLegs(rest, roles, toGlm(result->_toLevel), {},
+                             "foot placement: \"" + root.getName() + '"');
     measureSoles(*parts, toGlm(result->_toLevel), legs);
     result->_leg = legs.length;
     result->_floor = std::min(legs.sides[0].heel.z, legs.sides[1].heel.z);
@@ -98,16 +102,24 @@ osg::ref_ptr<GroundFeet> GroundFeet::addTo(osg::Node& character) {
     while (top >= 0 && !(rest.isInSubtree(static_cast<int>(legs.sides[1].hip), top) &&
                          (head < 0 || rest.isInSubtree(head, top))))
         top = rest.joints[static_cast<std::size_t>(top)].parent;
-    boneOf(static_cast<std::size_t>(top))->addUpdateCallback(result);
+    result->_topName = boneOf(static_cast<std::size_t>(top))->getName();
     return result;
 }
 
-void GroundFeet::setGround(const Ground& ground) {
-    _ground = ground;
-    restart();
+osg::Node& FootPlacement::nodeFor(osg::Node& root) const {
+    const Figure figure = findFigure(root, "foot placement");
+    const std::map<std::string, osgAnimation::Bone*> bones = bonesBelow(*figure.skeleton);
+    const auto top = bones.find(_topName);
+    if (top == bones.end()) figure.fail("no bone \"" + _topName + '"');
+    return *top->second;
 }
 
-void GroundFeet::setGround(osg::Node* node, osg::Node::NodeMask mask) {
+void FootPlacement::setGround(const Ground& ground) {
+    if (_ground) restart(); // else go on as a file says
+    _ground = ground;
+}
+
+void FootPlacement::setGround(osg::Node* node, osg::Node::NodeMask mask) {
     if (!node) return setGround(Ground());
     const osg::observer_ptr<osg::Node> observed = node;
     setGround([observed, mask](const osg::Vec3d& above, const osg::Vec3d& below, Surface& surface) {
@@ -116,15 +128,16 @@ void GroundFeet::setGround(osg::Node* node, osg::Node::NodeMask mask) {
     });
 }
 
-void GroundFeet::setWeight(double weight) {
+void FootPlacement::setWeight(double weight) {
     if (std::isfinite(weight)) _weight = std::clamp(weight, 0.0, 1.0);
 }
 
-void GroundFeet::restart() {
+void FootPlacement::restart() {
     _onGround = nullptr;
+    _isRead = false;
 }
 
-bool GroundFeet::findBones(osgAnimation::Bone& top) {
+bool FootPlacement::findBones(osgAnimation::Bone& top) {
     const auto isThere = [](const auto& bone) { return bone.valid(); };
     if (_top == &top && std::all_of(_legs.begin(), _legs.end(), [&](const Leg& leg) {
             return std::all_of(leg.bones.begin(), leg.bones.end(), isThere);
@@ -141,7 +154,7 @@ bool GroundFeet::findBones(osgAnimation::Bone& top) {
     return true;
 }
 
-std::optional<GroundPlane> GroundFeet::findGround(const osg::Vec3d& point) const {
+std::optional<GroundPlane> FootPlacement::findGround(const osg::Vec3d& point) const {
     const double range = kRange * _leg;
     const osg::Vec3d above(point.x(), point.y(), _floor + range);
     const osg::Vec3d below(point.x(), point.y(), _floor - range);
@@ -154,7 +167,7 @@ std::optional<GroundPlane> GroundFeet::findGround(const osg::Vec3d& point) const
     return GroundPlane{{point.x(), point.y(), height}, toGlm(normal)};
 }
 
-void GroundFeet::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, double dt) {
+void FootPlacement::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, double dt) {
     const glm::dmat4 toLevel = toGlm(_toLevel);
     std::array<ClipLeg, 2> clip;
     for (std::size_t side = 0; side < 2; ++side) {
@@ -176,8 +189,9 @@ void GroundFeet::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, dou
     if (!_onGround) _onGround = std::make_unique<LegsOnGround>(_floor, _leg);
     const glm::dmat4 carried = toGlm(_toWorld * osg::Matrixd::inverse(toWorld));
     _toWorld = toWorld;
-    _onGround->step(clip, dt, carried,
-                    [this](const glm::dvec3& point) { return findGround(toOsg(point)); });
+    if (!std::exchange(_isRead, false)) // else the pose of the file comes first
+        _onGround->step(clip, dt, carried,
+                        [this](const glm::dvec3& point) { return findGround(toOsg(point)); });
 
     const glm::dmat4 toSkeleton = glm::inverse(toLevel);
     const auto turn = [&](osgAnimation::Bone& bone, const glm::dquat& rotation) {
@@ -201,7 +215,7 @@ void GroundFeet::apply(osgAnimation::Bone& top, const osg::Matrixd& toWorld, dou
     }
 }
 
-void GroundFeet::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+void FootPlacement::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     traverse(node, nv); // the bones below are posed
     auto* top = dynamic_cast<osgAnimation::Bone*>(node);
     if (!top || !nv || !_ground || !(_weight > 0.0) || !findBones(*top)) return restart();

@@ -6,7 +6,7 @@
 #include <osgSkin/DeformableSkin>
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinMotion/ClipCharacter>
-#include <osgSkinMotion/GroundFeet>
+#include <osgSkinMotion/FootPlacement>
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@
 
 namespace {
 
-using osgSkin::GroundFeet;
+using osgSkin::attach;
+using osgSkin::FootPlacement;
 using Vertices = std::vector<osg::Vec3d>;
 
 constexpr double kFrame = 1.0 / 60.0, kTall = 1.75;
@@ -46,8 +47,8 @@ double heightAt(const Terrain& terrain, double way) {
     return terrain.rise * std::min(std::floor(on / terrain.tread) + 1.0, double(kSteps));
 }
 
-GroundFeet::Ground groundOf(const Terrain& terrain) {
-    return [terrain](const osg::Vec3d& above, const osg::Vec3d&, GroundFeet::Surface& surface) {
+FootPlacement::Ground groundOf(const Terrain& terrain) {
+    return [terrain](const osg::Vec3d& above, const osg::Vec3d&, FootPlacement::Surface& surface) {
         surface.point.set(above.x(), above.y(), heightAt(terrain, -above.y()));
         surface.normal.set(0, 0, 1);
         if (terrain.tread == 0.0 && -above.y() > kStart) surface.normal.set(0, terrain.rise, 1);
@@ -58,28 +59,26 @@ GroundFeet::Ground groundOf(const Terrain& terrain) {
 /// A pedestrian that is moved along -Y by its clip.
 struct Figure {
     osgSkin::Character character = osgSkin::loadCharacter(OSGSKIN_DATA "/pedestrian.skin");
-    osg::ref_ptr<osgSkin::ClipCharacter> clips = osgSkin::ClipCharacter::create(*character.root);
-    osg::ref_ptr<osgSkin::ClipPlayer> player = clips->makeBonePlayer();
+    osg::ref_ptr<osgSkin::ClipPlayer> player = attach<osgSkin::ClipPlayer>(*character.root);
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
-    osg::ref_ptr<GroundFeet> feet;
+    osg::ref_ptr<FootPlacement> feet;
 
     explicit Figure(const std::string& clip = "walk") {
         place->addChild(character.root);
         player->setRoot(osgSkin::ClipPlayer::Root::ExtractedWithTurn);
-        player->setLayer(0, {clips->clip(clip)});
+        player->setLayer(0, {player->clip(clip)});
     }
 
     /// Shows a time, then moves on.
     void update(double time) { test::updateAt(*place, time); }
     void move(const std::function<double(double)>& height) {
-        osg::Matrixd next =
-            player->takeRootMatrix(clips->toWorld()) * osg::Matrixd(place->getMatrix());
+        osg::Matrixd next = player->takeRootMatrix() * osg::Matrixd(place->getMatrix());
         next.setTrans(next.getTrans().x(), next.getTrans().y(), height(-next.getTrans().y()));
         place->setMatrix(next);
     }
     osg::Vec3d joint(const std::string& role) {
         return (osg::Matrixd(character.boneByRole(role)->getMatrixInSkeletonSpace()) *
-                clips->toWorld() * place->getMatrix())
+                character.toWorld * place->getMatrix())
             .getTrans();
     }
     Vertices vertices(bool atRest = false) {
@@ -110,7 +109,7 @@ class Grounds : public testing::TestWithParam<Terrain> {};
 TEST_P(Grounds, CarryTheSolesOfAWalk) {
     const Terrain& terrain = GetParam();
     Figure figure, level;
-    figure.feet = GroundFeet::addTo(*figure.character.root);
+    figure.feet = attach<FootPlacement>(*figure.character.root);
     figure.feet->setGround(groundOf(terrain));
     const std::array<std::vector<std::size_t>, 2> soles{soleOf(level, 0), soleOf(level, 1)};
     ASSERT_GT(soles[0].size(), 10u);
@@ -183,10 +182,10 @@ struct Comparison {
     Figure figure, level;
     int frame = 0;
 
-    Comparison() { figure.feet = GroundFeet::addTo(*figure.character.root); }
+    Comparison() { figure.feet = attach<FootPlacement>(*figure.character.root); }
 
     /// The largest difference that the ground makes in some frames of a walk.
-    double differenceOn(const GroundFeet::Ground& ground, int frames = 15) {
+    double differenceOn(const FootPlacement::Ground& ground, int frames = 15) {
         figure.feet->setGround(ground);
         double most = 0.0;
         for (const int end = frame + frames; frame < end; ++frame) {
@@ -200,13 +199,13 @@ struct Comparison {
     }
 };
 
-TEST(GroundFeet, ChangeNothingOnALevelFloor) {
+TEST(FootPlacement, ChangeNothingOnALevelFloor) {
     EXPECT_LT(Comparison().differenceOn(groundOf({"level", 0.0, 0.0}), 70), 1e-3 * kTall);
 }
 
-TEST(GroundFeet, ChangeNothingWithoutAUsableGround) {
+TEST(FootPlacement, ChangeNothingWithoutAUsableGround) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    using Surface = GroundFeet::Surface;
+    using Surface = FootPlacement::Surface;
     const auto set = [](const osg::Vec3d& point, const osg::Vec3d& normal) {
         return [=](const osg::Vec3d& above, const osg::Vec3d&, Surface& surface) {
             surface.point = osg::Vec3d(above.x(), above.y(), 0.2) + point;
@@ -231,13 +230,13 @@ osg::ref_ptr<osg::Node> makeBox(double height) {
         new osg::Box(osg::Vec3(0, 0, float(0.5 * height)), 4.0f, 4.0f, float(height)));
 }
 
-TEST(GroundFeet, StandOnANodeBelowATransform) {
+TEST(FootPlacement, StandOnANodeBelowATransform) {
     Figure figure("idle");
     const osg::ref_ptr<osg::MatrixTransform> above =
         new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 0.05));
     const osg::ref_ptr<osg::Node> box = makeBox(0.1);
     above->addChild(box);
-    figure.feet = GroundFeet::addTo(*figure.character.root);
+    figure.feet = attach<FootPlacement>(*figure.character.root);
     figure.feet->setGround(box.get());
     figure.update(0.0);
     const double hips = figure.joint("Hips").z();
@@ -246,13 +245,13 @@ TEST(GroundFeet, StandOnANodeBelowATransform) {
     EXPECT_NEAR(hips - figure.joint("Hips").z(), 0.15, 0.005); // it breathes
 }
 
-TEST(GroundFeet, LeaveOutNodesByTheMask) {
+TEST(FootPlacement, LeaveOutNodesByTheMask) {
     Figure figure("idle");
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(figure.place);
     scene->addChild(makeBox(0.1));
     figure.place->setNodeMask(2);
-    figure.feet = GroundFeet::addTo(*figure.character.root);
+    figure.feet = attach<FootPlacement>(*figure.character.root);
     figure.feet->setGround(scene.get(), 1);
     figure.update(0.0);
     double lowest = 1e9;
@@ -260,9 +259,9 @@ TEST(GroundFeet, LeaveOutNodesByTheMask) {
     EXPECT_NEAR(lowest, 0.1, 0.005);
 }
 
-TEST(GroundFeet, StandUnderTheManagerOfACharacterAndInItsCopies) {
+TEST(FootPlacement, StandUnderTheManagerOfACharacterAndInItsCopies) {
     const osgSkin::Character character = osgSkin::loadCharacter(OSGSKIN_DATA "/pedestrian.skin");
-    GroundFeet::addTo(*character.root)->setGround(groundOf({"", 1e9, 0.1}));
+    attach<FootPlacement>(*character.root)->setGround(groundOf({"", 1e9, 0.1}));
     const osg::ref_ptr<osg::MatrixTransform> place =
         new osg::MatrixTransform(osg::Matrixd::translate(0, -2, 0));
     place->addChild(character.root);
@@ -281,11 +280,11 @@ TEST(GroundFeet, StandUnderTheManagerOfACharacterAndInItsCopies) {
     }
 }
 
-TEST(GroundFeet, LeaveTheUpperBodyToItsLayers) {
+TEST(FootPlacement, LeaveTheUpperBodyToItsLayers) {
     Figure figure, level;
     for (Figure* each : {&figure, &level})
-        each->player->playOn("Spine", {each->clips->clip("wave")}, 0.0);
-    figure.feet = GroundFeet::addTo(*figure.character.root);
+        each->player->playOn("Spine", {each->player->clip("wave")}, 0.0);
+    figure.feet = attach<FootPlacement>(*figure.character.root);
     figure.feet->setGround([](const osg::Vec3d& above, const osg::Vec3d&, auto& surface) {
         surface.point.set(above.x(), above.y(), above.x() > 0.0 ? 0.1 : 0.0);
         return true;
@@ -297,9 +296,9 @@ TEST(GroundFeet, LeaveTheUpperBodyToItsLayers) {
         EXPECT_NEAR((figure.joint(role) - level.joint(role) - lift).length(), 0.0, 1e-6);
 }
 
-TEST(GroundFeet, ShowAPartByTheirWeight) {
+TEST(FootPlacement, ShowAPartByTheirWeight) {
     Figure figure("idle");
-    figure.feet = GroundFeet::addTo(*figure.character.root);
+    figure.feet = attach<FootPlacement>(*figure.character.root);
     std::array<double, 3> hips{};
     for (std::size_t i = 0; i < hips.size(); ++i) {
         figure.feet->setGround([](const osg::Vec3d& above, const osg::Vec3d&, auto& surface) {
