@@ -4,10 +4,12 @@
 
 Prints each breach as PATH: what is wrong, and exits with 1 if there is any. rooms.txt describes its
 own format; the other rules:
-  - at most 1000 lines in any source, an SPDX line in all;
+  - at most 600 lines in any source, an SPDX line in all;
+  - at most 60 lines in any function of nodekits and osgPlugin but those that rooms.txt lists, at most ten;
   - \\param, \\return and \\throw begin a line of their comment;
   - debian/copyright gives each source the licence of its SPDX line;
-  - a source includes the public header of its name first;
+  - a source includes the public header of its name first; a source that has no header of its name begins with
+    the header that declares its functions;
   - an internal header of a kit has two users or a test; with one user it belongs in that user's file
     (except for Highway's -inl.h parts of a kernel);
   - links and backquoted paths in Markdown exist; if a line of nodekits/README.md names a function(),
@@ -20,7 +22,9 @@ import pathlib
 import re
 import sys
 
-MAX_LINES = 1000
+MAX_LINES = 600
+MAX_FUNCTION_LINES = 60
+MAX_LONG_FUNCTIONS = 10
 MAX_RECIPE_LINES = 40
 FOLDERS = ("nodekits", "osgPlugin", "examples", "tests", "data", "cmake", ".ci")
 SCRIPTS = {".cmake", ".sh", ".py", ".txt"}
@@ -37,7 +41,7 @@ class House:
         self.inside = {}  # kit -> the kits of these whose internal headers it may include
         self.rooms = collections.defaultdict(list)  # kit -> rooms, bottom to top
         self.headers = {}  # (kit, public header without a source) -> room
-        self.tables = {}  # path -> why it has no header
+        self.long = {}  # (path, function) -> why it is long
         self.read_rooms()
 
     def breach(self, path, what):
@@ -59,11 +63,11 @@ class House:
                 for other in self.needs[kit]:
                     if other not in self.needs or other == kit:
                         self.breach(path, f"{kit} needs {other}, which does not stand above it")
-            elif words[0] == "table":
-                file, _, why = line.removeprefix("table ").partition(": ")
-                self.tables[file] = why
-                if not (self.root / file).is_file() or not why:
-                    self.breach(path, f"{file} does not exist, or no reason is given")
+            elif words[0] == "long":
+                place, _, why = line.removeprefix("long ").partition(": ")
+                self.long[tuple(place.split())] = why
+                if not why or len(self.long) > MAX_LONG_FUNCTIONS:
+                    self.breach(path, f"{place}: no reason, or more than {MAX_LONG_FUNCTIONS} long functions")
             else:
                 self.rooms[kit].append(words[0])
                 if not (self.root / "nodekits" / kit / "src" / words[0]).is_dir():
@@ -193,6 +197,56 @@ def check_own_headers(house):
         if path.suffix == ".cpp" and (house.root / "nodekits" / kit / "include" / own).is_file():
             if includes(path)[:1] != [f"<{own}>"]:
                 house.breach(path, f"does not include <{own}> first")
+
+
+def check_declared(house):
+    """The first include of a source without a header of its name declares one of its functions."""
+    for path in house.files("nodekits"):
+        parts = path.relative_to(house.root / "nodekits").parts
+        public = house.root / "nodekits" / parts[0] / "include"
+        if path.suffix != ".cpp" or path.with_suffix(".h").is_file() or (public / parts[0] / path.stem).is_file():
+            continue
+        first = (includes(path) or ['""'])[0]
+        header = public / first[1:-1] if first[0] == "<" else house.internal(parts[0], first[1:-1])
+        functions = set(re.findall(r"^\w[^;=]*?\b(\w+)\(", path.read_text(), re.M))
+        if not header.is_file() or not any(re.search(rf"\b{f}\(", header.read_text()) for f in functions):
+            house.breach(path, f"begins with {first}, which declares none of its functions")
+
+
+def functions(lines, first=0, last=None, indent=0):
+    """(begin, end, head) of the functions in formatted C++: their bodies end where their heads are indented."""
+    last, pad = len(lines) if last is None else last, " " * indent
+    while first < last:
+        head = first
+        if lines[head][:indent] != pad or not lines[head][indent:indent + 1].strip("}#/ "):
+            first += 1
+            continue
+        while first < last and not re.search(r"[{;}](\s*//.*)?$", lines[first]):
+            first += 1
+        text = " ".join(line.strip() for line in lines[head:first + 1])
+        first += 1
+        if not re.search(r"\{(\s*//.*)?$", text) or re.match(r"(inline )?namespace\b|extern \"C\"", text):
+            continue
+        end = next((i for i in range(first, last) if lines[i].startswith(pad + "}")), last)
+        if re.match(r"(template ?<.*?> ?)?(class|struct|union)\b[^(]*\{$", text):
+            yield from functions(lines, first, end, indent + 4)
+        elif "(" in text and not re.search(r"=\s*\{$", text):
+            yield head, end, text
+        first = end + 1
+
+
+def check_functions(house):
+    """Checks the length of functions, those in shaders' texts left out."""
+    unused = set(house.long)
+    for path in filter(is_code, house.files("nodekits", "osgPlugin")):
+        text = re.sub(r'R"\(.*?\)"', lambda raw: '""' + "\n" * raw[0].count("\n"), path.read_text(), flags=re.S)
+        for begin, end, head in functions(text.splitlines()):
+            name = (re.findall(r"(\w+)\(", head) or ["?"])[0]
+            unused.discard((house.name(path), name)) if end - begin >= MAX_FUNCTION_LINES else None
+            if end - begin >= MAX_FUNCTION_LINES and (house.name(path), name) not in house.long:
+                house.breach(path, f"{name}() has {end - begin + 1} lines; at most {MAX_FUNCTION_LINES}")
+    for path, name in unused:
+        house.breach(house.root / "nodekits/rooms.txt", f"{path} has no long {name}()")
 
 
 def check_users(house):
@@ -332,6 +386,8 @@ def main():
     check_copyright(house)
     arrows = check_includes(house)
     check_own_headers(house)
+    check_declared(house)
+    check_functions(house)
     check_users(house)
     check_pages(house)
     check_example(house)

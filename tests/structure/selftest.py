@@ -14,9 +14,11 @@ ROWS = PICTURE + "| low | `ground`, `first` |\n| high | `only` |\n"
 
 RECIPE = "# Recipes\n\n## A crowd\n![it](../pictures/recipes/makeCrowd.png)\n\n[makeCrowd.cpp](makeCrowd.cpp).\n"
 
+LATER = MIT + '#include "first/Late.h"\nvoid later() {\n' + "    1;\n" * 60 + "}\n"
+
 ROOMS = ("kit low MIT\n  ground  Export\n  first\n"
          "kit high GPL-3.0-or-later needs low*\n  only\n"
-         "table nodekits/low/src/first/Table.cpp: numbers\n")
+         "long nodekits/low/src/first/Later.cpp later: steps\n")
 
 SOUND = {
     "nodekits/rooms.txt": ROOMS,
@@ -28,14 +30,13 @@ SOUND = {
                                         "int base() { return up(); }\nint S::f() { return 2; }\n}\n",
     "nodekits/low/src/first/Up.cpp": MIT + '#include <low/Up>\n#include "ground/Base.h"\n'
                                      "namespace n { void up() { base(); } }\n",
-    "nodekits/low/src/first/Late.h": MIT,
-    "nodekits/low/src/first/Down.cpp": MIT + '#include "ground/Base.h"\n#include "first/Late.h"\n',
-    "nodekits/low/src/first/Later.cpp": MIT + '#include "first/Late.h"\n',
-    "nodekits/low/src/first/Table.cpp": MIT + "int table[] = {1};\n",
-    "nodekits/high/src/only/Top.h": GPL + "#include <low/Up>\n",
+    "nodekits/low/src/first/Late.h": MIT + "void down();\nvoid later();\n",
+    "nodekits/low/src/first/Down.cpp": MIT + '#include "first/Late.h"\n#include "ground/Base.h"\nvoid down() {}\n',
+    "nodekits/low/src/first/Later.cpp": LATER,
+    "nodekits/high/src/only/Top.h": GPL + "#include <low/Up>\nvoid top();\nvoid other();\n",
     "nodekits/high/src/only/Top.cpp": GPL + '#include "only/Top.h"\n',
-    "nodekits/high/src/only/Other.cpp": GPL + '#include "ground/Base.h"\n#include "only/Top.h"\n',
-    "nodekits/high/src/only/Another.cpp": GPL + '#include "only/Top.h"\n',
+    "nodekits/high/src/only/Other.cpp": GPL + '#include "only/Top.h"\n\n#include "ground/Base.h"\nvoid other() {}\n',
+    "nodekits/high/src/only/Another.cpp": GPL + '#include "only/Top.h"\nvoid top() {}\n',
     "nodekits/README.md": ROWS + "# House\n\nSee [the base](low/src/ground/Base.cpp), `S::f()`, and [above](#house).\n",
     "README.md": "#include <osgSkin/A>\n// Shown.\nint a = 1;\n",
     "examples/Plain.cpp": MIT + "int main() {}\n",
@@ -56,21 +57,27 @@ BROKEN = [
      "nodekits/README.md: its picture lets high need []; rooms.txt: ['low']"),
     ({"nodekits/low/src/ground/Base.h": MIT + "#include <low/Up>\n"},
      "nodekits/low/src/ground/Base.h: includes <low/Up>: an arrow upward, ground -> first"),
-    ({"nodekits/low/src/ground/Low.cpp": MIT + '#include "first/Late.h"\n'},
+    ({"nodekits/low/src/ground/Low.cpp": MIT + '#include "first/Late.h"\nvoid down() {}\n'},
      'nodekits/low/src/ground/Low.cpp: includes "first/Late.h": an arrow upward'),
     ({"nodekits/low/src/first/Up.cpp": MIT + '#include "ground/Base.h"\n#include <low/Up>\n'},
      "nodekits/low/src/first/Up.cpp: does not include <low/Up> first"),
-    ({"nodekits/low/src/first/Later.cpp": MIT},
+    ({"nodekits/low/src/first/Later.cpp": LATER.replace("first/Late.h", "ground/Base.h").replace("later", "base").replace("1;\n    ", "1;"),
+      "nodekits/rooms.txt": ROOMS.split("long")[0]},
      "nodekits/low/src/first/Late.h: only nodekits/low/src/first/Down.cpp uses it"),
-    ({"nodekits/low/src/first/Late.h": MIT + "#include <high/Thing>\n"},
+    ({"nodekits/low/src/first/Late.h": MIT + "#include <high/Thing>\nvoid down();\nvoid later();\n"},
      "nodekits/low/src/first/Late.h: includes <high/Thing>, and low does not need high"),
-    ({"nodekits/low/src/first/Late.h": MIT + '#include "Base.h"\n'},
+    ({"nodekits/low/src/first/Late.h": MIT + '#include "Base.h"\nvoid down();\nvoid later();\n'},
      'nodekits/low/src/first/Late.h: includes "Base.h", which is not ROOM/File.h'),
-    ({"nodekits/low/src/attic/Thing.cpp": MIT}, "nodekits/low/src/attic/Thing.cpp: stands in no room"),
+    ({"nodekits/low/src/attic/Thing.cpp": MIT + "#include <low/Up>\nvoid up() {}\n"}, "nodekits/low/src/attic/Thing.cpp: stands in no room"),
     ({"nodekits/low/include/low/Loose": MIT}, "nodekits/low/include/low/Loose: stands in no room"),
-    ({"examples/Plain.cpp": MIT + "\n" * 1000}, "examples/Plain.cpp: has 1001 lines"),
+    ({"examples/Plain.cpp": MIT + "\n" * 600}, "examples/Plain.cpp: has 601 lines"),
+    ({"nodekits/rooms.txt": ROOMS.split("long")[0]}, "nodekits/low/src/first/Later.cpp: later() has 62 lines"),
+    ({"nodekits/low/src/first/Later.cpp": LATER.replace("    1;\n" * 9, "")},
+     "nodekits/rooms.txt: nodekits/low/src/first/Later.cpp has no long later()"),
+    ({"nodekits/low/src/first/Down.cpp": MIT + '#include "first/Late.h"\n#include "ground/Base.h"\nvoid other() {}\n'},
+     'nodekits/low/src/first/Down.cpp: begins with "first/Late.h", which declares'),
     ({"examples/run": "#!/bin/sh\n"}, "examples/run: no SPDX-License-Identifier"),
-    ({"nodekits/high/src/only/Top.h": MIT}, "nodekits/high/src/only/Top.h: MIT, in a kit that is GPL"),
+    ({"nodekits/high/src/only/Top.h": MIT + "void top();\nvoid other();\n"}, "nodekits/high/src/only/Top.h: MIT, in a kit that is GPL"),
     ({"examples/Plain.cpp": MIT + "/// Adds. \\return the sum\n"},
      "examples/Plain.cpp: line 2: a \\param, \\return or \\throw begins"),
     ({"README.md": "#include <osgSkin/A>\n// Shown.\nint a = 2;\n"},

@@ -42,8 +42,7 @@ struct FoldShape {
 /// A vertex at rest, as all bends need it.
 struct RestPoint {
     glm::dvec3 at;
-    double height;     ///< signed distance from the plane that bisects the joint; positive on the
-                       ///< child's side
+    double height;     ///< from the plane that bisects the joint, positive on the child's side
     double childShare; ///< how much it belongs to the child's side of the joint, 0 to 1
     double distance;   ///< from the bone, blended where both sides of the joint meet
 };

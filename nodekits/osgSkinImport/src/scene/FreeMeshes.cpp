@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Meshes without a skin that are not parented to a joint.
+#include "scene/SourceScene.h"
+
 #include "files/FileText.h"
 #include "scene/SceneBind.h"
 #include "scene/SceneSkeleton.h"
-#include "scene/SourceScene.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

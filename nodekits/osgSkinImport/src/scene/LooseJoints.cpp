@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Attaches joints that an editor's constraints held in place.
+#include "scene/SourceScene.h"
+
 #include "files/FileText.h"
 #include "scene/SceneSkeleton.h"
 #include "scene/SceneTracks.h"
-#include "scene/SourceScene.h"
 
 #include <osgSkinRig/JointRoles>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "names/BodyParts.h"
 #include "retarget/MotionSteps.h"
+
+#include "names/BodyParts.h"
 #include "retarget/PlantedFoot.h"
 #include "retarget/RetargetTarget.h"
 
