@@ -149,7 +149,7 @@ bool press(Stage& stage, int key) {
         toggle(settings.bounds);
         return true;
     case 'c':
-        stage.showHitShapes(!settings.hitShapes);
+        stage.showHitBoxes(!settings.hitBoxes);
         return true;
     case 'i':
         toggle(settings.status);

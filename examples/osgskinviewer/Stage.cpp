@@ -286,8 +286,8 @@ void Stage::turnNormals(bool on) {
     tense(settings.tensed);
 }
 
-void Stage::showHitShapes(bool on) {
-    settings.hitShapes = on;
+void Stage::showHitBoxes(bool on) {
+    settings.hitBoxes = on;
     if (!_hitBoxes) {
         _hitBoxes = osgSkin::attach<osgSkin::HitBoxes>(*_figure.root)->makeLines();
         _hitBoxes->getOrCreateStateSet()->setAttribute(new osg::LineWidth(1.5f));

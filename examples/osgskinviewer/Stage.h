@@ -74,7 +74,7 @@ struct Settings {
     bool skeleton = false;
     bool wireframe = false;
     bool bounds = false;
-    bool hitShapes = false;
+    bool hitBoxes = false;
     bool help = false;
     bool morphs = false; ///< the list of morph targets
     bool status = true;
@@ -109,7 +109,7 @@ public:
     /// both.
     void turnNormals(bool on);
     /// Shows the figure's HitBoxes, which are fitted when they are first shown.
-    void showHitShapes(bool on);
+    void showHitBoxes(bool on);
     /// Tenses or relaxes all muscles.
     void tense(bool on);
     /// Selects the next (+1) or previous (-1) joint that has partial ratios.

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-/// What both archives have. Numbers of more than 32 bits are two words.
+/// The base of both archives. Numbers of more than 32 bits are two words.
 template <typename Self>
 class Archive {
 public:

@@ -117,7 +117,8 @@ TEST(JointsByRole, AreFoundWhateverTheirNames) {
 }
 
 TEST(JointsByRole, RejectsUnknownRole) {
-    const Character thrower = loadCharacter(kThrower);
+    Character thrower = loadCharacter(kThrower);
+    test::expectContains(errorOf([&] { thrower.bone("LeftArn"); }), "did you mean \"LeftArm\"");
     const std::string why = errorOf([&] { thrower.jointByRole("LeftUperArm"); });
     test::expectContains(why, kThrower + ": no joint is known to be the \"LeftUperArm\"");
     test::expectContains(why, "did you mean \"LeftUpperArm\"?");

@@ -67,8 +67,6 @@ osg::ref_ptr<osg::Node> written(const osg::Node& root) {
     return osgDB::readRefNodeFile(file);
 }
 
-/// \param attach makes one
-/// \param isSaved whether files keep it as it is
 template <typename Kind, typename Attach>
 void expectOneWay(const Attach& attachTo) {
     Character character = makeColumn();
@@ -181,6 +179,19 @@ TEST(Attach, RefusesTwoFiguresAtATime) {
     attach<ClipPlayer>(*one.root);
     EXPECT_TRUE(find<ClipPlayer>(*one.root));
     EXPECT_FALSE(find<ClipPlayer>(*other.root));
+}
+
+TEST(Attach, ManagersOfHiddenFiguresPauseToo) {
+    Character character = makeColumn();
+    character.root->setNodeMask(0);
+    const auto player = attach<ClipPlayer>(*character.root);
+    EXPECT_TRUE(player->clip("nod"));
+    character.root->setNodeMask(~0u);
+    const auto tilt = [&] { return character.bone("base")->getMatrix().getRotate().w(); };
+    test::updateAt(*character.root, 0.0);
+    const double atStart = tilt();
+    test::updateAt(*character.root, 0.5);
+    EXPECT_NEAR(tilt(), atStart, 1e-9);
 }
 
 /// A manager pauses below a player, and plays again without.

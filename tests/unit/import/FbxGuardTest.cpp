@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is refused in an FBX file before Assimp reads it, and what is not even looked at.
+// FBX files that are refused before Assimp reads them, and parts that are not read at all.
 #include "assimp/FbxDocument.h"
 #include "assimp/FbxModels.h"
 

@@ -3,8 +3,10 @@
 #include "Figure.h"
 #include "RenamedBody.h"
 
+#include <osgSkin/Error>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinImport/ImportSkeleton>
+#include <osgSkinRig/FindJoint>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Retarget>
 #include <osgSkinRig/RetargetReport>
@@ -34,6 +36,28 @@ TEST(JointRoles, EmptySkeletonHasNoRoles) {
     const JointRoles roles = recogniseJoints({});
     EXPECT_FALSE(roles.known());
     EXPECT_TRUE(roles.parts.empty());
+}
+
+/// A name wins over a role, and a name that is neither is refused with the likely one.
+TEST(JointRoles, FindsJointsByNameOrRole) {
+    const RestSkeleton skeleton{{{"Bip01Pelvis", -1, {}, {}},
+                                 {"Bip01Spine", 0, {}, {}},
+                                 {"Bip01Neck", 1, {}, {}},
+                                 {"Bip01Head", 2, {}, {}},
+                                 {"Spine", 3, {}, {}}}};
+    JointRoles roles;
+    roles.joints["Spine"] = {1};
+    roles.joints["Head"] = {3};
+    EXPECT_EQ(findJoint(skeleton, "Spine", roles), 4u);
+    EXPECT_EQ(findJoint(skeleton, "Head", roles), 3u);
+    EXPECT_EQ(findJoint(skeleton, "Bip01Neck"), 2u);
+    try {
+        findJoint(skeleton, "Haed", roles);
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean \"Head\""), std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(JointRoles, RecognisesWordsWithoutFamily) {

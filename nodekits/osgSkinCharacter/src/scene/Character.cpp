@@ -61,10 +61,11 @@ void Character::poseAt(const CharacterMotion& motion, double seconds) {
 }
 
 osg::ref_ptr<osgAnimation::Bone> Character::bone(const std::string& name) {
-    if (!skeleton) return nullptr;
-    const osgAnimation::BoneMap bones = bonesOf(*skeleton);
+    const osgAnimation::BoneMap bones = skeleton ? bonesOf(*skeleton) : osgAnimation::BoneMap();
     const auto found = bones.find(name);
-    return found == bones.end() ? nullptr : found->second;
+    if (found != bones.end()) return found->second;
+    throw Error(file + ": no bone \"" + name + '"' +
+                (bones.empty() ? std::string("; it has none") : expectedNames(name, bones)));
 }
 
 std::size_t Character::jointByRole(const std::string& role) const {
@@ -76,10 +77,7 @@ std::size_t Character::jointByRole(const std::string& role) const {
 }
 
 osg::ref_ptr<osgAnimation::Bone> Character::boneByRole(const std::string& role) {
-    const std::string& name = rest.joints[jointByRole(role)].name;
-    const osg::ref_ptr<osgAnimation::Bone> found = bone(name);
-    if (!found) throw Error(file + ": the joint \"" + name + "\" has no bone");
-    return found;
+    return bone(rest.joints[jointByRole(role)].name);
 }
 
 osg::Vec3d Character::restPosition(const std::string& role) const {

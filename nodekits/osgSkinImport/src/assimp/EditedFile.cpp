@@ -116,7 +116,7 @@ private:
         return _xml.substr(value.begin, value.size);
     }
 
-    /// What a morph, or the morph that it is of, deforms at last.
+    /// The controller or geometry at the end of a chain of morphs.
     std::string follow(std::string url) {
         std::vector<Controller*> passed;
         for (auto at = _known.find(url); at != _known.end() && !at->second.isSkin;

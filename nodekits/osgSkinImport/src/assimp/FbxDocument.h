@@ -36,8 +36,8 @@ struct FbxRecord {
     const FbxRecord* property(const std::string& name) const;
 };
 
-/// What Assimp does not expose of an FBX file: objects of the few kinds that place and move
-/// models, and all connections.
+/// The parts of an FBX file that Assimp does not expose: objects of the few kinds that place and
+/// move models, and all connections.
 struct FbxDocument {
     /// Models, deformers, and stacks, layers, nodes and curves of animations; geometries without
     /// their contents.

@@ -11,7 +11,7 @@
 
 namespace osgSkin {
 
-/// What an attachment finds below a character's root.
+/// A character as attachments need it, found below its root.
 struct Figure {
     std::string label; ///< begins its errors: what is attached, and the root's name
     osg::ref_ptr<osgAnimation::Skeleton> skeleton;

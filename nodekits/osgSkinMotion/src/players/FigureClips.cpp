@@ -17,7 +17,7 @@ namespace {
 
 class Managers : public osg::NodeVisitor {
 public:
-    Managers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    Managers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
 
     void apply(osg::Node& node) override {
         for (osg::Callback* c = node.getUpdateCallback(); c; c = c->getNestedCallback())

@@ -16,10 +16,10 @@ constexpr double kLongestFrame = 0.25;  ///< seconds; more is a pause
 constexpr double kJump = 1.0;           ///< metres in one frame, beyond the speed before it
 constexpr double kTurnCosine = 0.70711; ///< of half the turn that is a jump, 90 degrees
 constexpr int kSettleSteps = 60;        ///< of 1/60 s
-constexpr double kLeastBraking = -0.3;  ///< of a bone that is pushed, which speeds it up
+constexpr double kMinBraking = -0.3;    ///< of a bone that is pushed, which speeds it up
 constexpr double kSettleDrag = 0.5;     ///< at least
 constexpr double kTiny = 1e-9;          ///< metres
-constexpr double kLeastLength = 1e-3;   ///< of a bone, in lengths of its chain's longest
+constexpr double kMinLength = 1e-3;     ///< of a bone, in lengths of its chain's longest
 constexpr double kMaxStiffness = 1e6, kMaxLength = 1e12;
 constexpr double kClear = 1e-3; ///< room to colliders, so that few rounds are needed
 constexpr int kMaxRounds = 128; ///< among several colliders
@@ -132,7 +132,7 @@ void SpringChains::settle() {
         longest[_states[j].top] =
             std::max(longest[_states[j].top], glm::length(_now.bones[j].tip - _now.bones[j].head));
     for (State& state : _states)
-        state.leastLength = std::max(kTiny, kLeastLength * longest[state.top]);
+        state.leastLength = std::max(kTiny, kMinLength * longest[state.top]);
     for (std::size_t j = 0; j < _joints.size(); ++j) {
         const Bone& bone = _now.bones[j];
         State& state = _states[j];
@@ -212,7 +212,7 @@ void SpringChains::step(double share) {
         const double length = glm::length(bone);
         const glm::dvec3 last = std::exchange(_tips[j], state.head);
         if (length <= state.leastLength) continue;
-        const double braking = std::max(state.pull / (kVrmRate * length), kLeastBraking);
+        const double braking = std::max(state.pull / (kVrmRate * length), kMinBraking);
         const glm::dvec3 speed =
             state.kept * (state.headSpeed + (state.speed - state.headSpeed) /
                                                 (1.0 + braking * (1.0 + 0.5 * braking))) +

@@ -75,7 +75,7 @@ public:
     /// Where the bones' tips are.
     const std::vector<glm::dvec3>& tips() const { return _tips; }
 
-    // What files keep:
+    // For files:
     const std::vector<State>& states() const { return _states; }
     const Frame& frame() const { return _now; } ///< the last one
     bool isMoving() const { return _isMoving; }
