@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Install rules for `cmake --install` and packages for `cpack -G DEB`, one for each component; debian/
-# makes the same packages.
+# Install rules for `cmake --install`, by component, of which debian/ makes packages (cmake/packages.sh).
 #   component    package                 licence  contents
 #   runtime      libosgskin0.4           MIT      libosgSkin, libosgSkinRig, libosgSkinMotion, libosgSkinGpu
 #   serializers  osgskin-serializers     MIT      .osgt, .osgb, .osgx; with runtime, everything that
@@ -153,54 +152,20 @@ install(FILES
   "${PROJECT_BINARY_DIR}/osgSkinConfigVersion.cmake"
   DESTINATION "${osgskin_cmake_dir}" COMPONENT dev)
 
-set(CPACK_PACKAGE_NAME osgskin)
-set(CPACK_PACKAGE_CONTACT "osgSkin developers <noreply@osgskin.invalid>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
-
-# osgskin_package(COMPONENT PACKAGE SECTION DEPENDENCY...): the dependencies are components.
-macro(osgskin_package component package section)
-  string(TOUPPER ${component} upper)
-  list(APPEND CPACK_COMPONENTS_ALL ${component})
-  set(CPACK_COMPONENT_${upper}_DEPENDS ${ARGN})
-  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})
-  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
-endmacro()
-set(CPACK_COMPONENTS_ALL "")
-osgskin_package(runtime libosgskin${OSGSKIN_SOVERSION} libs)
-osgskin_package(dev libosgskin-dev libdevel runtime)
-if(TARGET osgdb_serializers_osgskin)
-  osgskin_package(serializers osgskin-serializers graphics runtime)
-endif()
-if(TARGET osgSkinImport)
-  osgskin_package(import libosgskinimport${OSGSKIN_SOVERSION} libs runtime)
-  list(APPEND CPACK_COMPONENT_DEV_DEPENDS import)
-endif()
-if(TARGET osgSkinBind)
-  osgskin_package(bind libosgskinbind${OSGSKIN_SOVERSION} libs runtime)
-  list(APPEND CPACK_COMPONENT_DEV_DEPENDS bind)
-endif()
-if(TARGET osgSkinCharacter)
-  list(APPEND CPACK_COMPONENT_BIND_DEPENDS import)
-endif()
-if(TARGET osgdb_skin)
-  osgskin_package(plugin osgskin-plugin graphics bind)
+# osgskin_install_licences(COMPONENT [LICENCE...]): every component brings them, since each may be passed on alone.
+function(osgskin_install_licences component)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT ${component})
+  foreach(licence MIT Apache-2.0 NOTICES ${ARGN})
+    install(FILES "${PROJECT_SOURCE_DIR}/LICENSES/${licence}.txt" DESTINATION "${CMAKE_INSTALL_DOCDIR}/LICENSES"
+      COMPONENT ${component})
+  endforeach()
+endfunction()
+foreach(component runtime serializers import dev bind plugin)
+  osgskin_install_licences(${component})
+endforeach()
+if(TARGET osgskinbake)
+  osgskin_install_licences(programs CC0-1.0)
 endif()
 if(TARGET osgdb_binder_osgskin)
-  osgskin_package(binder osgskin-binder graphics bind)
-  foreach(component BIND PLUGIN PROGRAMS)
-    set(CPACK_DEBIAN_${component}_PACKAGE_RECOMMENDS osgskin-binder)
-  endforeach()
+  osgskin_install_licences(binder GPL-3.0-or-later)
 endif()
-if(TARGET osgskinbake)
-  osgskin_package(programs osgskin-tools graphics plugin serializers)
-endif()
-set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenscenegraph-dev, libglm-dev")
-# dpkg-shlibdeps finds the libraries that ours link; our own are in the build folder.
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-set(CPACK_STRIP_FILES ON)
-include(CPack)

@@ -7,6 +7,7 @@ osgskin_build_packages="g++ cmake ninja-build pkg-config libopenscenegraph-dev o
   libcli11-dev libhwy-dev libtbb-dev libmeshoptimizer-dev libdraco-dev libgtest-dev
   libbenchmark-dev libegl-dev liblo-dev libbullet-dev"
 osgskin_show_packages="xvfb imagemagick libgl1-mesa-dri"
+osgskin_package_packages="dpkg-dev debhelper help2man lintian mmdebstrap"
 osgskin_test_packages="libegl1 binutils dpkg-dev file locales assimp-testmodels python3"
 
 # osgskin_install PACKAGE...: installs the Debian packages that are missing.

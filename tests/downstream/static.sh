@@ -16,9 +16,14 @@ mkdir -p "$folder"
 find "$folder" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
 unset LD_LIBRARY_PATH OSG_LIBRARY_PATH
 cmake --preset static -S "$source" -B "$folder/build" >"$folder/configure.txt"
+# One target builds all that its macro names, USE_OSGSKIN_SERIALIZERS() here.
+cmake --build "$folder/build" --target osgdb_serializers_osgskin >"$folder/build.txt" || fail "the serializers' static build"
+[ -n "$(find "$folder/build" -name 'libosgdb_serializers_osgskinmotion.a')" ] ||
+  fail "the target osgdb_serializers_osgskin does not build the serializers of walkers"
 cmake --build "$folder/build" >"$folder/build.txt" || { tail -n 20 "$folder/build.txt"; fail "the static build"; }
 cmake --install "$folder/build" --prefix "$folder/static" >"$folder/install.txt"
 cmake --install "$build" --prefix "$folder/shared" >>"$folder/install.txt"
+[ -e "$folder/static/share/doc/osgSkin/LICENSES/NOTICES.txt" ] || fail "the static tree holds no notices"
 find "$folder/static" -name '*.so*' | grep . && fail "the static tree holds shared libraries"
 
 for kind in static shared; do

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # runtime_only.sh BUILD SOURCE FOLDER: configures the runtime, the rig, motion and GPU kits and the
 # serializers with CGAL and Assimp hidden, and installs those of BUILD alone. They must not link
-# either library, and play a character saved by BUILD's .skin plug-in. A game that links only the
+# either library. osgSkin and its serializers alone play a character saved by BUILD's .skin plug-in. A game that links only the
 # motion kit, and so the rig kit, retargets a motion and plays it.
 set -euo pipefail
 build=$1 source=$2 folder=$3
@@ -26,7 +26,7 @@ motion=$(find "$folder/installed" -name 'libosgSkinMotion.so.*' -type f)
 gpu=$(find "$folder/installed" -name 'libosgSkinGpu.so.*' -type f)
 serializers=$(find "$folder/installed" -name osgdb_serializers_osgskin.so)
 walkers=$(find "$folder/installed" -name osgdb_serializers_osgskinmotion.so)
-[ "$(find "$folder/installed" -type f | wc -l)" -eq 6 ] || fail "more than the six libraries is installed"
+[ "$(find "$folder/installed" -type f ! -path '*/share/doc/*' | wc -l)" -eq 6 ] || fail "more than the six libraries is installed"
 for file in "$runtime" "$rig" "$motion" "$gpu" "$serializers" "$walkers" "$build"/lib/libosgSkin.so "$build"/lib/libosgSkinRig.so \
   "$build"/lib/osgPlugins-*/osgdb_serializers_osgskin.so; do
   needed=$(readelf -d "$file" | grep NEEDED)
@@ -35,6 +35,8 @@ for file in "$runtime" "$rig" "$motion" "$gpu" "$serializers" "$walkers" "$build
 done
 echo "No library names CGAL, GMP, MPFR or Assimp"
 
+# A saved character that stays on the processor needs one of the kits.
+rm "$rig" "$motion" "$gpu" "$walkers"
 for extension in osgb osgt osgx; do
   saved="$folder/thrower.$extension"
   rm -f "$saved"
