@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # runtime_only.sh BUILD SOURCE FOLDER: configures the runtime, the rig, motion and GPU kits and the
 # serializers with CGAL and Assimp hidden, and installs those of BUILD alone. They must not link
-# either library. osgSkin and its serializers alone play a character saved by BUILD's .skin plug-in. A game that links only the
-# motion kit, and so the rig kit, retargets a motion and plays it.
+# either library. osgSkin and its serializers alone play a character saved by BUILD's .skin plug-in.
+# A game that links only the motion kit, and so the rig kit, retargets a motion and plays it.
 set -euo pipefail
 build=$1 source=$2 folder=$3
 fail() {
