@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "FindNodes.h"
+#include "Notices.h"
 #include "UpdateAt.h"
 
 #include <osgSkin/Error>
@@ -230,6 +231,25 @@ TEST(SpringBones, LeavePosesThatAreNotFinite) {
     figure.place->setMatrix(osg::Matrixd());
     figure.frame();
     EXPECT_TRUE(figure.tail().valid());
+}
+
+TEST(SpringBones, LookAtEachColliderOnceForAJoint) {
+    const std::size_t many = 20'000;
+    SpringSettings settings = tailSprings();
+    ASSERT_EQ(settings.chains[0].joints.size(), 3u);
+    settings.colliders.resize(many);
+    for (SpringSettings::Collider& collider : settings.colliders) collider.joint = "Neck";
+    settings.chains[0].colliders.assign(3 * many, 7);
+    {
+        const test::Notices notices;
+        Figure(settings).frame();
+        EXPECT_EQ(notices.text(), "");
+    }
+    for (std::size_t i = 0; i < many; ++i) settings.chains[0].colliders[i] = i;
+    const test::Notices notices;
+    Figure(settings).frame();
+    EXPECT_TRUE(notices.say("10000 pairs of joints and colliders beyond 50000 are left out"))
+        << notices.text();
 }
 
 TEST(SpringBones, StayOutOfACollider) {

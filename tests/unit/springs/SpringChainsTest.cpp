@@ -410,6 +410,25 @@ TEST(SpringChains, StaysInsideOfCollidersAndOverPlanes) {
     }
 }
 
+/// Two balls that both hold the tips, each of which moves them back into the other.
+TEST(SpringChains, LookAtCollidersAgainWithinTheFramesLimit) {
+    auto made = joints(0.3, 0.3, 0.0, 1.0);
+    for (SpringChains::Joint& joint : made) joint.colliders = {0, 1};
+    SpringChains chains(made);
+    SpringChains::Frame frame = headAt(0.0);
+    const dvec3 middle = frame.bones[1].tip;
+    frame.colliders = {{middle + dvec3(0.01, 0, 0), middle + dvec3(0.01, 0, 0), 5.0},
+                       {middle - dvec3(0.01, 0, 0), middle - dvec3(0.01, 0, 0), 5.0}};
+    const std::size_t pairs = 2 * kBones;
+    ASSERT_TRUE(chains.move(frame, 0.0));
+    EXPECT_GT(chains.rechecks(), 100 * pairs);
+    constexpr std::size_t kFew = 100;
+    ASSERT_TRUE(chains.move(frame, 1.0 / 60.0, kFew));
+    EXPECT_LE(chains.rechecks(), kFew);
+    EXPECT_EQ(chains.checks(), 8 * pairs + chains.rechecks()); // in each of eight steps once
+    for (const dvec3& tip : chains.tips()) EXPECT_TRUE(osgSkin::isFinite(tip));
+}
+
 TEST(SpringChains, PointsAwayFromAColliderAroundItsJoint) {
     auto made = joints(1.0, 0.4, 1.0, 0.0);
     made.resize(1);

@@ -14,10 +14,12 @@
 
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
+#include <osg/Notify>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -30,6 +32,49 @@ double scaleOf(const osg::Matrixd& matrix) {
     const double scale = std::cbrt(std::abs(glm::determinant(m)));
     return std::isfinite(scale) ? scale : 0.0;
 }
+
+constexpr std::size_t kMaxPairs = 50'000; ///< of joints and colliders; a step looks at all
+
+/// The chains' different colliders that have a bone, for a bounded number of joints.
+class UsedColliders {
+public:
+    template <typename Find>
+    UsedColliders(const SpringSettings& settings, const Find& find)
+        : _ofChain(settings.chains.size()) {
+        for (const SpringSettings::Collider& collider : settings.colliders)
+            _bones.push_back(find(collider.joint));
+        std::vector<std::size_t> lastChain(_bones.size(), _ofChain.size());
+        for (std::size_t c = 0; c < _ofChain.size(); ++c)
+            for (const std::size_t index : settings.chains[c].colliders)
+                if (index < _bones.size() && _bones[index] &&
+                    std::exchange(lastChain[index], c) != c)
+                    _ofChain[c].push_back(index);
+    }
+
+    Bone& bone(std::size_t collider) const { return *_bones[collider]; }
+
+    /// Those of one joint more of a chain, in order.
+    std::vector<std::size_t> forJoint(std::size_t chain) {
+        std::vector<std::size_t> result = _ofChain[chain];
+        if (result.size() > kMaxPairs - _pairs) {
+            _unused += result.size() - (kMaxPairs - _pairs);
+            result.resize(kMaxPairs - _pairs);
+        }
+        _pairs += result.size();
+        return result;
+    }
+
+    void warn() const {
+        if (_unused > 0)
+            OSG_WARN << "osgSkin: springs: " << _unused << " pairs of joints and colliders beyond "
+                     << kMaxPairs << " are left out" << std::endl;
+    }
+
+private:
+    std::vector<Bone*> _bones; ///< [collider]
+    std::vector<std::vector<std::size_t>> _ofChain;
+    std::size_t _pairs = 0, _unused = 0;
+};
 
 int depthOf(const Bone& bone) {
     int depth = 0;
@@ -113,7 +158,8 @@ private:
         SpringChains::Frame frame;
     };
 
-    void move(Group& group, const osg::Matrixd& place, double seconds) const;
+    /// \param rechecks how many are left of this frame's
+    void move(Group& group, const osg::Matrixd& place, double seconds, std::size_t& rechecks) const;
 
     const osgAnimation::Skeleton* _skeleton;
     double _metresPerUnit;
@@ -133,6 +179,7 @@ SpringBones::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings
     std::map<std::string, std::size_t> groups; // by centre
     std::map<const Bone*, GroupJoint> places;
     std::vector<std::map<std::size_t, std::size_t>> hits; // by collider, [group]
+    UsedColliders colliders(settings, find);
     const glm::dquat turn = _metresPerUnit > 0.0 ? axesOf(toWorld) : glm::dquat(1, 0, 0, 0);
     for (const Entry& entry : fromTheRoot(settings, find)) {
         const std::size_t g = groups.emplace(entry.chain->centre, _groups.size()).first->second;
@@ -152,15 +199,14 @@ SpringBones::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings
         joint.radius = from.radius * _metresPerUnit;
         joint.gravity = turn * from.gravity;
         joint.parent = parentIn(places, *entry.bone, g);
-        for (const std::size_t index : entry.chain->colliders) {
-            if (index >= settings.colliders.size()) continue;
+        const auto c = static_cast<std::size_t>(entry.chain - settings.chains.data());
+        for (const std::size_t index : colliders.forJoint(c)) {
             const SpringSettings::Collider& collider = settings.colliders[index];
-            Bone* const bone = find(collider.joint);
-            if (!bone) continue;
+            Bone& bone = colliders.bone(index);
             const auto [hit, isNew] = hits[g].emplace(index, group.hits.size());
-            const osg::Matrixd toBone = bone->getInvBindMatrixInSkeletonSpace();
+            const osg::Matrixd toBone = bone.getInvBindMatrixInSkeletonSpace();
             if (isNew)
-                group.hits.push_back({bone, toOsg(collider.start) * toBone,
+                group.hits.push_back({&bone, toOsg(collider.start) * toBone,
                                       toOsg(collider.end) * toBone,
                                       collider.radius * _metresPerUnit});
             joint.colliders.push_back(hit->second);
@@ -171,6 +217,7 @@ SpringBones::Swing::Swing(osgAnimation::Skeleton& skeleton, const SpringSettings
         bone.tip = toOsg(from.tip) * osg::Matrixd(entry.bone->getInvBindMatrixInSkeletonSpace());
         group.bones.push_back(bone);
     }
+    colliders.warn();
     for (Group& group : _groups) {
         group.frame.bones.resize(group.bones.size());
         group.frame.colliders.resize(group.hits.size());
@@ -204,10 +251,12 @@ void SpringBones::Swing::restore() {
 
 void SpringBones::Swing::move(const osg::Matrixd& place, double seconds) {
     restore();
-    for (Group& group : _groups) move(group, place, seconds);
+    std::size_t rechecks = SpringChains::kMaxRechecks;
+    for (Group& group : _groups) move(group, place, seconds, rechecks);
 }
 
-void SpringBones::Swing::move(Group& group, const osg::Matrixd& place, double seconds) const {
+void SpringBones::Swing::move(Group& group, const osg::Matrixd& place, double seconds,
+                              std::size_t& rechecks) const {
     const osg::Matrixd toSpace =
         group.hasCentre && scaleOf(group.centre->getMatrixInSkeletonSpace()) > 0.0
             ? osg::Matrixd::inverse(group.centre->getMatrixInSkeletonSpace())
@@ -227,7 +276,8 @@ void SpringBones::Swing::move(Group& group, const osg::Matrixd& place, double se
         const osg::Matrixd at = hit.bone->getMatrixInSkeletonSpace() * toMetres;
         frame.colliders[i] = {toGlm(hit.start * at), toGlm(hit.end * at), hit.radius};
     }
-    if (!group.chains.move(frame, seconds)) return;
+    if (!group.chains.move(frame, seconds, rechecks)) return;
+    rechecks -= group.chains.rechecks();
     const osg::Matrixd fromMetres = osg::Matrixd::inverse(toMetres);
     for (std::size_t i = 0; i < group.bones.size(); ++i) {
         SwungBone& each = group.bones[i];
@@ -269,16 +319,16 @@ void SpringBones::Swing::recall(const SpringMemory& memory) {
         frame.colliders = from.colliders;
         for (std::size_t i = 0; i < to.bones.size(); ++i) {
             const SpringMemory::Bone& bone = from.bones[i];
-            if (bone.name != to.bones[i].bone->getName()) return;
+            if (bone.name != to.bones[i].bone->getName() || !bone.base.valid()) return;
             states.push_back(bone.state);
             tips.push_back(bone.tip);
             frame.bones.push_back(bone.pose);
         }
+        if (!to.chains.recall(states, tips, frame)) return;
         for (std::size_t i = 0; i < to.bones.size(); ++i) {
             to.bones[i].base = from.bones[i].base;
             to.bones[i].swung = to.bones[i].bone->getMatrix();
         }
-        to.chains.recall(states, tips, frame);
     }
 }
 

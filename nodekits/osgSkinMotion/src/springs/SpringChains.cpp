@@ -33,6 +33,22 @@ bool isSound(const glm::dvec3& v) {
            std::abs(v.z) <= kMaxLength;
 }
 
+bool isSound(const SpringChains::Frame& frame) {
+    for (const SpringChains::Bone& bone : frame.bones)
+        if (!isSound(bone.head) || !isSound(bone.tip) || !isFinite(bone.axes)) return false;
+    for (const SpringChains::Collider& c : frame.colliders)
+        if (!isSound(c.start) || !isSound(c.end) || !(std::abs(c.radius) <= kMaxLength))
+            return false;
+    return isFinite(frame.fromWorld);
+}
+
+bool isSound(const SpringChains::State& state) {
+    for (const glm::dvec3* v :
+         {&state.frameSpeed, &state.head, &state.headSpeed, &state.speed, &state.bone, &state.pose})
+        if (!isSound(*v)) return false;
+    return std::abs(state.pull) <= kMaxLength;
+}
+
 /// shortestRotation() of unit vectors.
 glm::dquat swingOf(const glm::dvec3& from, const glm::dvec3& to) {
     const double cosine = glm::dot(from, to);
@@ -90,13 +106,10 @@ SpringChains::SpringChains(std::vector<Joint> joints)
     }
 }
 
-bool SpringChains::move(const Frame& frame, double seconds) {
-    for (const Bone& bone : frame.bones)
-        if (!isSound(bone.head) || !isSound(bone.tip) || !isFinite(bone.axes)) return false;
-    for (const Collider& c : frame.colliders)
-        if (!isSound(c.start) || !isSound(c.end) || !(std::abs(c.radius) <= kMaxLength))
-            return false;
-    if (!isFinite(frame.fromWorld) || !std::isfinite(seconds)) return false;
+bool SpringChains::move(const Frame& frame, double seconds, std::size_t maxRechecks) {
+    _checks = _rechecks = 0;
+    _maxRechecks = maxRechecks;
+    if (!isSound(frame) || !std::isfinite(seconds)) return false;
     std::swap(_before, _now);
     _now = frame;
     if (!_isMoving) {
@@ -112,8 +125,11 @@ bool SpringChains::move(const Frame& frame, double seconds) {
     return true;
 }
 
-void SpringChains::recall(const std::vector<State>& states, const std::vector<glm::dvec3>& tips,
+bool SpringChains::recall(const std::vector<State>& states, const std::vector<glm::dvec3>& tips,
                           const Frame& frame) {
+    for (std::size_t j = 0; j < _states.size(); ++j)
+        if (!isSound(states[j]) || !isSound(tips[j])) return false;
+    if (!isSound(frame)) return false;
     for (std::size_t j = 0; j < _states.size(); ++j) {
         const std::size_t top = _states[j].top;
         _states[j] = states[j];
@@ -122,17 +138,23 @@ void SpringChains::recall(const std::vector<State>& states, const std::vector<gl
     _tips = tips;
     _now = frame;
     _isMoving = true;
+    findLeastLengths();
+    return true;
 }
 
-void SpringChains::settle() {
-    _before = _now;
-    _isMoving = true;
+void SpringChains::findLeastLengths() {
     std::vector<double> longest(_joints.size(), 0.0); // of the chain with that top
     for (std::size_t j = 0; j < _joints.size(); ++j)
         longest[_states[j].top] =
             std::max(longest[_states[j].top], glm::length(_now.bones[j].tip - _now.bones[j].head));
     for (State& state : _states)
         state.leastLength = std::max(kTiny, kMinLength * longest[state.top]);
+}
+
+void SpringChains::settle() {
+    _before = _now;
+    _isMoving = true;
+    findLeastLengths();
     for (std::size_t j = 0; j < _joints.size(); ++j) {
         const Bone& bone = _now.bones[j];
         State& state = _states[j];
@@ -151,29 +173,29 @@ void SpringChains::settle() {
 
 /// Where a chain's topmost bone jumps, moves the frame before and all tips along.
 void SpringChains::carryOverJumps(double seconds, bool isPause) {
-    for (std::size_t top = 0; top < _joints.size(); ++top) {
-        if (_states[top].top != top) continue;
-        const Bone from = _before.bones[top], &to = _now.bones[top];
-        const glm::dvec3 way = to.head - from.head;
-        const glm::dquat turn = to.axes * glm::inverse(from.axes);
-        glm::dvec3& frameSpeed = _states[top].frameSpeed;
-        const bool isJump = isPause || seconds == 0.0 || std::abs(turn.w) < kTurnCosine ||
-                            glm::length(way - frameSpeed * seconds) > kJump;
-        if (seconds != 0.0) frameSpeed = isPause ? glm::dvec3(0.0) : way / seconds;
-        if (!isJump) continue;
-        const auto carry = [&](glm::dvec3& point) { point = to.head + turn * (point - from.head); };
-        for (std::size_t j = top; j < _joints.size(); ++j) {
-            if (_states[j].top != top) continue;
-            carry(_before.bones[j].head);
-            carry(_before.bones[j].tip);
-            carry(_tips[j]);
-            State& state = _states[j];
-            carry(state.head);
-            for (glm::dvec3* v : {&state.speed, &state.headSpeed, &state.pose, &state.bone})
-                *v = turn * *v;
+    bool isAnyJump = false;
+    for (std::size_t j = 0; j < _joints.size(); ++j) {
+        State& state = _states[j];
+        State& top = _states[state.top];
+        const Bone& to = _now.bones[state.top];
+        if (state.top == j) {
+            const Bone& from = _before.bones[j];
+            const glm::dvec3 way = to.head - from.head;
+            top.jumpFrom = from.head;
+            top.jumpTurn = to.axes * glm::inverse(from.axes);
+            top.isJump = isPause || seconds == 0.0 || std::abs(top.jumpTurn.w) < kTurnCosine ||
+                         glm::length(way - top.frameSpeed * seconds) > kJump;
+            if (seconds != 0.0) top.frameSpeed = isPause ? glm::dvec3(0.0) : way / seconds;
         }
-        _before.colliders = _now.colliders;
+        if (!top.isJump) continue;
+        isAnyJump = true;
+        for (glm::dvec3* point :
+             {&_before.bones[j].head, &_before.bones[j].tip, &_tips[j], &state.head})
+            *point = to.head + top.jumpTurn * (*point - top.jumpFrom);
+        for (glm::dvec3* v : {&state.speed, &state.headSpeed, &state.pose, &state.bone})
+            *v = top.jumpTurn * *v;
     }
+    if (isAnyJump) _before.colliders = _now.colliders;
 }
 
 /// Sets what is the same in all steps of a frame.
@@ -235,11 +257,15 @@ void SpringChains::step(double share) {
 
 /// \param tip relative to the joint
 glm::dvec3 SpringChains::outOfColliders(std::size_t joint, double length, glm::dvec3 tip,
-                                        double share) const {
+                                        double share) {
     const glm::dvec3& head = _states[joint].head;
-    bool isMoved = !_joints[joint].colliders.empty();
+    const std::size_t pairs = _joints[joint].colliders.size();
+    bool isMoved = pairs > 0;
     for (int round = 0; isMoved && round < kMaxRounds; ++round) {
         isMoved = false;
+        if (round > 0 && _rechecks + pairs > _maxRechecks) break;
+        if (round > 0) _rechecks += pairs;
+        _checks += pairs;
         for (const std::size_t index : _joints[joint].colliders) {
             const Collider &before = _before.colliders[index], &now = _now.colliders[index];
             const Collider at{glm::mix(before.start, now.start, share) - head,

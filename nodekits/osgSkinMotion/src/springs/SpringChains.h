@@ -52,10 +52,13 @@ public:
     struct State {
         std::size_t top = 0;        ///< the topmost joint of the chain
         glm::dvec3 frameSpeed{0.0}; ///< of a topmost joint, in the last frame
-        double leastLength = 0.0;   ///< of a bone that swings by itself
-        double kept = 1.0;          ///< part of the speed, in a step
-        double gainToPose = 0.0;    ///< of speed, as is `gain`
-        glm::dvec3 gain{0.0};       ///< by gravity
+        bool isJump = false;        ///< of a topmost joint, as are the next two
+        glm::dvec3 jumpFrom{0.0};
+        glm::dquat jumpTurn{1, 0, 0, 0};
+        double leastLength = 0.0; ///< of a bone that swings by itself
+        double kept = 1.0;        ///< part of the speed, in a step
+        double gainToPose = 0.0;  ///< of speed, as is `gain`
+        glm::dvec3 gain{0.0};     ///< by gravity
         // After the last step:
         glm::dvec3 head{0.0}, headSpeed{0.0}, speed{0.0}; ///< of the joint, and of the tip
         double pull = 0.0;            ///< speed that the joint's pull along the bone has taken away
@@ -69,8 +72,16 @@ public:
 
     /// Moves on to a frame; the first one begins at rest.
     /// \param seconds since the last frame
+    /// \param maxRechecks how often in this frame a joint may look at one of its colliders again,
+    ///        because another one has moved its tip
     /// \return false, and nothing changes, where a number is not finite
-    bool move(const Frame& frame, double seconds);
+    bool move(const Frame& frame, double seconds, std::size_t maxRechecks = kMaxRechecks);
+
+    /// How often joints looked at colliders in the last frame.
+    std::size_t checks() const { return _checks; }
+    std::size_t rechecks() const { return _rechecks; } ///< those after the first ones in each step
+
+    static constexpr std::size_t kMaxRechecks = 1'000'000;
 
     /// Where the bones' tips are.
     const std::vector<glm::dvec3>& tips() const { return _tips; }
@@ -81,15 +92,17 @@ public:
     bool isMoving() const { return _isMoving; }
     /// Goes on from there in the next frame. All have as many entries as there are joints and
     /// colliders.
-    void recall(const std::vector<State>& states, const std::vector<glm::dvec3>& tips,
+    /// \return false, and nothing changes, where a number is not finite or too large
+    bool recall(const std::vector<State>& states, const std::vector<glm::dvec3>& tips,
                 const Frame& frame);
 
 private:
     void settle();
+    void findLeastLengths();
     void carryOverJumps(double seconds, bool isPause);
     void prepare(double seconds, double leastDrag);
     void step(double share);
-    glm::dvec3 outOfColliders(std::size_t joint, double length, glm::dvec3 tip, double share) const;
+    glm::dvec3 outOfColliders(std::size_t joint, double length, glm::dvec3 tip, double share);
 
     std::vector<Joint> _joints;
     std::vector<State> _states;
@@ -97,6 +110,7 @@ private:
     Frame _before, _now;
     double _step = 0.0;     ///< seconds
     bool _isMoving = false; ///< after the first frame
+    std::size_t _checks = 0, _rechecks = 0, _maxRechecks = kMaxRechecks;
 };
 
 } // namespace osgSkin
