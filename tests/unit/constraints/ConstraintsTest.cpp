@@ -67,8 +67,8 @@ TEST(Constraints, RefuseCirclesAndNumbersThatCannotBe) {
         errorOf({makeConstraint("a", "b"), makeConstraint("c", "b"), makeConstraint("b", "a")}),
         "\"a\" follows \"b\", which follows it: expected no circle");
     EXPECT_NE(errorOf({makeConstraint("a", "a")}), "");
-    const std::string wrong = "constraint of \"a\": expected rotations and an axis that are finite "
-                              "and not 0, and a weight of 0 to 1";
+    const std::string wrong = "constraint of \"a\": expected rotations and an axis with lengths "
+                              "above 1e-12 and up to 1e12, and a weight of 0 to 1";
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const auto with = [](auto change) {
         Constraint odd = makeConstraint("a", "b");
@@ -77,11 +77,35 @@ TEST(Constraints, RefuseCirclesAndNumbersThatCannotBe) {
     };
     EXPECT_EQ(with([](Constraint& odd) { odd.axis = glm::dvec3(0.0); }), wrong);
     EXPECT_EQ(with([](Constraint& odd) { odd.axis.x = kNone; }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.axis.y = 1e200; }), wrong);
+    EXPECT_EQ(with([](Constraint& odd) { odd.source.rest.x = 1e200; }), wrong);
     EXPECT_EQ(with([](Constraint& odd) { odd.weight = 1.25; }), wrong);
     EXPECT_EQ(with([](Constraint& odd) { odd.weight = kNone; }), wrong);
     EXPECT_EQ(with([](Constraint& odd) { odd.source.axes = glm::dquat(0, 0, 0, 0); }), wrong);
     EXPECT_EQ(with([](Constraint& odd) { odd.joint.rest.w = kNone; }), wrong);
     EXPECT_EQ(with([](Constraint& odd) { odd.axis *= 7.0; }), "");
+}
+
+/// In the order of the list, each depends on the next.
+TEST(Constraints, MayBeALongChain) {
+    const std::size_t count = 100'000;
+    const osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    const osg::ref_ptr<osgAnimation::Bone> root = new osgAnimation::Bone("root");
+    skeleton->addChild(root);
+    std::vector<Constraint> chain;
+    for (std::size_t i = 0; i < count; ++i) {
+        root->addChild(new osgAnimation::Bone("b" + std::to_string(i)));
+        if (i > 0)
+            chain.push_back(makeConstraint("b" + std::to_string(i - 1), "b" + std::to_string(i)));
+    }
+    const osg::Quat turn(0.5, osg::Vec3d(0, 0, 1));
+    auto* const last = static_cast<osgAnimation::Bone*>(root->getChild(count - 1));
+    last->setMatrix(osg::Matrix::rotate(turn));
+    last->setMatrixInSkeletonSpace(last->getMatrix());
+    const osg::ref_ptr<Constraints> constraints = new Constraints(chain);
+    constraints->apply(*skeleton);
+    auto* const first = static_cast<osgAnimation::Bone*>(root->getChild(0));
+    EXPECT_LT((first->getMatrix().getRotate() - turn).length(), 1e-6);
 }
 
 TEST(Constraints, ComeBeforeSprings) {

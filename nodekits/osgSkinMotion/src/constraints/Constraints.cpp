@@ -21,14 +21,16 @@ namespace {
 using osgAnimation::Bone;
 
 constexpr double kTiny = 1e-12; ///< a distance without a direction
+constexpr double kHuge = 1e12;  ///< a length whose square is far within range
 
 bool isUsable(const glm::dquat& q) {
-    return isFinite(q) && glm::length(q) > kTiny;
+    return isFinite(q) && glm::length(q) > kTiny && glm::length(q) <= kHuge;
 }
 
 void check(Constraint& constraint) {
     bool isSound = isFinite(constraint.axis) && glm::length(constraint.axis) > kTiny &&
-                   constraint.weight >= 0.0 && constraint.weight <= 1.0;
+                   glm::length(constraint.axis) <= kHuge && constraint.weight >= 0.0 &&
+                   constraint.weight <= 1.0;
     constraint.axis = glm::normalize(constraint.axis);
     for (Constraint::Joint* joint : {&constraint.joint, &constraint.source})
         for (glm::dquat* q : {&joint->rest, &joint->axes, &joint->above}) {
@@ -36,9 +38,10 @@ void check(Constraint& constraint) {
             *q = glm::normalize(*q);
         }
     if (!isSound)
-        throw Error("constraint of \"" + constraint.joint.name +
-                    "\": expected rotations and an axis that are finite and not 0, and a weight of "
-                    "0 to 1");
+        throw Error(
+            "constraint of \"" + constraint.joint.name +
+            "\": expected rotations and an axis with lengths above 1e-12 and up to 1e12, and "
+            "a weight of 0 to 1");
 }
 
 /// From a joint's bind pose to its pose, in skeleton space.
@@ -129,21 +132,27 @@ private:
         Constraint constraint;
     };
 
-    /// Adds what a constraint depends on, and then it.
+    /// Adds what a constraint depends on, and then it. Chains may be long: no recursion.
     void add(std::size_t index, const std::vector<Entry>& entries,
              const std::map<const Bone*, std::size_t>& places, std::vector<bool>& isOpen) {
-        if (!isOpen[index]) return;
-        isOpen[index] = false;
-        const Entry& entry = entries[index];
-        const auto addOf = [&](const Bone* bone) {
-            if (const auto place = places.find(bone); place != places.end())
-                add(place->second, entries, places, isOpen);
-        };
-        addOf(entry.source.get());
-        if (entry.constraint.kind == Constraint::Kind::Aim)
-            for (const Bone* of : {entry.source.get(), entry.bone.get()})
-                for (const Bone* b = of->getBoneParent(); b; b = b->getBoneParent()) addOf(b);
-        _entries.push_back(entry);
+        std::vector<std::pair<std::size_t, bool>> stack{{index, false}}; // and whether it is next
+        while (!stack.empty()) {
+            const auto [top, isNext] = stack.back();
+            stack.pop_back();
+            const Entry& entry = entries[top];
+            if (isNext) _entries.push_back(entry);
+            if (isNext || !isOpen[top]) continue;
+            isOpen[top] = false;
+            stack.emplace_back(top, true);
+            const auto addOf = [&](const Bone* bone) {
+                if (const auto place = places.find(bone); place != places.end())
+                    stack.emplace_back(place->second, false);
+            };
+            if (entry.constraint.kind == Constraint::Kind::Aim)
+                for (const Bone* of : {entry.bone.get(), entry.source.get()})
+                    for (const Bone* b = of->getBoneParent(); b; b = b->getBoneParent()) addOf(b);
+            addOf(entry.source.get());
+        }
     }
 
     const osgAnimation::Skeleton* _skeleton;
