@@ -59,6 +59,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"NoWalk", "no clip", [](Gaits::Set& set) { set.walking.clip = nullptr; }},
         Fault{"NoStanding", "no clip", [](Gaits::Set& set) { set.standing = nullptr; }},
         Fault{"NoStride", "stride", [](Gaits::Set& set) { set.walking.stride = 0.0; }},
+        Fault{"NearlyNoStride", "expected 1e-9 to 1e12",
+              [](Gaits::Set& set) { set.walking.stride = 5e-324; }},
+        Fault{"EndlessStride", "expected 1e-9 to 1e12",
+              [](Gaits::Set& set) { set.walking.stride = 1e300; }},
+        Fault{"SoleFarAway", "a sole is not within",
+              [](Gaits::Set& set) { set.legs[0].ball.y = 1e19; }},
         Fault{
             "StrideNotANumber", "stride",
             [](Gaits::Set& set) { set.running.stride = std::numeric_limits<double>::quiet_NaN(); }},

@@ -247,7 +247,7 @@ osg::ref_ptr<const SampledClip> SampledClip::create(const std::string& name,
     for (JointSample& sample : samples) {
         const double length = glm::length(sample.rotation);
         if (!(std::abs(length - 1.0) < 1e-3) || !(sample.scale > 0.0) ||
-            !std::isfinite(sample.scale + glm::dot(sample.translation, glm::dvec3(1.0))))
+            sample.scale > kLargestCoordinate || !isInRange(sample.translation))
             fail("a sample that is no transform");
         sample.rotation /= length;
     }

@@ -10,6 +10,8 @@
 namespace osgSkin {
 namespace {
 
+constexpr double kLeastStride = 1e-9, kLargestStride = 1e12;
+
 [[noreturn]] void failGaits(const std::string& what) {
     throw Error("gaits: " + what);
 }
@@ -25,9 +27,9 @@ void requireUsable(const Gaits::Gait& gait, const SampledClip& standing) {
     if (!haveSameJoints(*gait.clip, standing))
         failGaits("clip \"" + gait.clip->name() + "\" has other joints than \"" + standing.name() +
                   "\"");
-    if (!(gait.stride > 0.0) || !std::isfinite(gait.stride))
+    if (!(gait.stride >= kLeastStride && gait.stride <= kLargestStride))
         failGaits("the stride of clip \"" + gait.clip->name() + "\" is " +
-                  std::to_string(gait.stride) + ", expected more than 0");
+                  std::to_string(gait.stride) + ", expected 1e-9 to 1e12");
     for (const Gaits::Contact& contact : gait.contacts)
         if (!(contact.begin >= 0.0 && contact.begin <= 1.0 && contact.end >= 0.0 &&
               contact.end <= 1.0))
@@ -73,9 +75,8 @@ void Gaits::set(const Set& set) {
         if (!isBelow(joints, leg.knee, leg.hip) || !isBelow(joints, leg.ankle, leg.knee) ||
             (leg.toe != leg.ankle && !isBelow(joints, leg.toe, leg.ankle)))
             failGaits("the joints of a leg are not below each other");
-        else if (const glm::dvec3 sole = leg.heel + leg.ball + leg.tip;
-                 !std::isfinite(sole.x + sole.y + sole.z))
-            failGaits("a sole is not finite");
+        else if (!isInRange(leg.heel) || !isInRange(leg.ball) || !isInRange(leg.tip))
+            failGaits("a sole is not within -1e18 to 1e18");
     if (!isEven(set.toWalker) || !std::isfinite(set.facing))
         failGaits("the way from rest space is not a rotation with an even scale and a shift");
     _set = set;
