@@ -152,6 +152,20 @@ TEST_F(ReceivePoses, MovesAVrm) {
     EXPECT_LT(angle(armAt(0.7), osg::Y_AXIS), 1.0);
 }
 
+/// Bones that do not stand, and then an actor.
+TEST_F(ReceivePoses, WaitsForSomeoneWhoStands) {
+    const osg::Vec3d before = armAt(0.0);
+    const lo::Address address("127.0.0.1", std::to_string(server->port()));
+    for (const char* const name :
+         {"Hips", "Spine", "Head", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot", "RightUpperLeg",
+          "RightLowerLeg", "RightFoot", "LeftLowerArm", "LeftHand", "RightLowerArm", "RightHand"})
+        address.send("/VMC/Ext/Bone/Pos", "sfffffff", name, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    address.send("/VMC/Ext/T", "f", 0.0);
+    EXPECT_LT(angle(armAt(0.1), before), 1e-3);
+    raise(90.0, 0.2);
+    EXPECT_LT(angle(armAt(0.6), osg::Y_AXIS), 1.0);
+}
+
 TEST_F(ReceivePoses, HoldsThePoseWhenPacketsAreLost) {
     raise(90.0);
     const osg::Vec3d arm = armAt(0.34);

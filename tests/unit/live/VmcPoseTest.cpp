@@ -130,6 +130,24 @@ TEST(VmcPose, MovesWithItsRoot) {
     expectNear(positionOf(pose, "LeftToes") - positionOf(pose, "LeftFoot"), {-0.15, -0.05, 0.0});
 }
 
+/// A stranger may send any positions.
+TEST(VmcPose, OfNobodyWhoStandsMovesNoRigAndDoesNotThrow) {
+    const RestSkeleton rig = standing().skeleton();
+    std::string reason;
+    EXPECT_TRUE(osgSkin::LiveRetarget::create(standing().skeleton(), rig, {}, &reason));
+    EXPECT_EQ(reason, "");
+    for (const osg::Vec3d& each :
+         {osg::Vec3d(0.1, 0, 0), osg::Vec3d(9e17, 9e17, -9e17), osg::Vec3d(0, 1e-20, 0)}) {
+        VmcPose pose;
+        for (const Bone& bone : kBones) setBone(pose, bone.name, each, osg::Quat());
+        EXPECT_TRUE(pose.hasBody());
+        reason.clear();
+        const auto retarget = osgSkin::LiveRetarget::create(pose.skeleton(), rig, {}, &reason);
+        EXPECT_NE(retarget.has_value(), !reason.empty());
+        EXPECT_FALSE(retarget) << each.x();
+    }
+}
+
 TEST(VmcPose, RefusesWhatCannotBeUsed) {
     VmcPose pose = standing();
     const glm::dvec3 root = pose.root();

@@ -10,6 +10,7 @@
 #include <osgSkin/GlmTypes>
 
 #include <cmath>
+#include <exception>
 #include <optional>
 
 namespace osgSkin {
@@ -81,6 +82,18 @@ LiveRetarget::LiveRetarget(const Motion& calibration, const RestSkeleton& rig,
     calibration.validate();
     rig.validate();
     _transfer = std::make_unique<Transfer>(calibration, rig, options, report);
+}
+
+std::optional<LiveRetarget> LiveRetarget::create(const RestSkeleton& source,
+                                                 const RestSkeleton& rig,
+                                                 const RetargetOptions& options,
+                                                 std::string* reason) {
+    try {
+        return LiveRetarget(source, rig, options);
+    } catch (const std::exception& error) {
+        if (reason) *reason = error.what();
+        return std::nullopt;
+    }
 }
 
 LiveRetarget::LiveRetarget(LiveRetarget&&) noexcept = default;
