@@ -20,8 +20,8 @@ void appendBranch(const std::vector<RestJoint>& from, std::size_t i, int parent,
 
 } // namespace
 
-Skeleton::Skeleton() {
-    appendBranch(restSkeleton(), 0, -1, joints_);
+Skeleton::Skeleton(const std::vector<RestJoint>& joints) {
+    appendBranch(joints, 0, -1, joints_);
 }
 
 std::size_t Skeleton::index(const std::string& name) const {

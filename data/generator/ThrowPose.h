@@ -15,7 +15,8 @@ namespace mannequin {
 /// The rest skeleton in the depth-first order of a BVH file, with a lookup by joint name.
 class Skeleton {
 public:
-    Skeleton();
+    /// \param joints parents first
+    explicit Skeleton(const std::vector<RestJoint>& joints = restSkeleton());
 
     const std::vector<RestJoint>& joints() const { return joints_; }
 

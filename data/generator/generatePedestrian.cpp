@@ -6,12 +6,17 @@
 // motions (pedestrian_idle.bvh, ..._walk.bvh, ..._run.bvh, ..._wave.bvh), and prints a report. With
 // --check it reads the motions back and exits with 1 if the figure or a motion is not what it must
 // be.
+//
+// osgskin_generate_pedestrian OUTDIR --seed N
+//
+// Makes a person of the pedestrian.obj that is in OUTDIR, see People.h.
 
 #include "BvhWriter.h"
 #include "Isosurface.h"
 #include "MeshReport.h"
 #include "PaintedMesh.h"
 #include "PedestrianMotions.h"
+#include "People.h"
 #include "Remesher.h"
 
 #include <cmath>
@@ -88,13 +93,20 @@ int run(const std::string& folder, bool check) {
 } // namespace
 
 int main(int argc, char** argv) {
-    const std::string option = argc == 3 ? argv[2] : "";
-    if (argc < 2 || argc > 3 || argv[1][0] == '-' || argv[1][0] == '\0' ||
-        (argc == 3 && option != "--check")) {
-        std::cerr << "usage: osgskin_generate_pedestrian OUTDIR [--check]\n";
+    const std::string option = argc >= 3 ? argv[2] : "";
+    const bool isPerson = argc == 4 && option == "--seed" && argv[3][0] != '\0' &&
+                          std::string(argv[3]).size() < 7 &&
+                          std::string(argv[3]).find_first_not_of("0123456789") == std::string::npos;
+    if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0' ||
+        (argc > 2 && !isPerson && !(argc == 3 && option == "--check"))) {
+        std::cerr << "usage: osgskin_generate_pedestrian OUTDIR [--check | --seed N]\n";
         return 2;
     }
     try {
+        if (isPerson) {
+            writePerson(argv[1], static_cast<unsigned int>(std::stoul(argv[3])));
+            return 0;
+        }
         return run(argv[1], option == "--check");
     } catch (const std::exception& error) {
         std::cerr << "osgskin_generate_pedestrian: " << error.what() << "\n";
