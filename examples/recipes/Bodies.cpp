@@ -26,8 +26,8 @@ btTransform toBullet(const osg::Matrixd& matrix) {
 
 } // namespace
 
-Bodies::Bodies() {
-    _world.setGravity({0, 0, -9.81f});
+Bodies::Bodies(double size) {
+    _world.setGravity({0, 0, btScalar(-9.81 * size)});
 }
 
 Bodies::~Bodies() {
@@ -84,10 +84,10 @@ void Bodies::stepTo(double time) {
     _time = time;
 }
 
-osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file) {
+osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size) {
     constexpr int steps = 8;
-    constexpr double rise = 0.17, tread = 0.29, wide = 1.2;
-    const auto bodies = std::make_shared<Bodies>();
+    const double rise = 0.17 * size, tread = 0.29 * size, wide = 1.2 * size;
+    const auto bodies = std::make_shared<Bodies>(size);
     const osg::ref_ptr<osg::MatrixTransform> scene =
         new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, rise * steps));
     const auto addBox = [&](const osg::Vec3d& half, const osg::Vec3d& centre) {
@@ -96,11 +96,12 @@ osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file) {
             osg::Vec3(centre), 2 * float(half.x()), 2 * float(half.y()), 2 * float(half.z()))));
     };
     for (int i = 0; i < steps; ++i) { // solid down to the floor
-        const double top = -rise * i, depth = i == 0 ? 1.0 : 0.5 * tread, down = rise * (steps - i);
-        const double y = i == 0 ? 0.75 : -0.25 - tread * (i - 0.5);
+        const double top = -rise * i, depth = i == 0 ? size : 0.5 * tread,
+                     down = rise * (steps - i);
+        const double y = i == 0 ? 0.75 * size : -0.25 * size - tread * (i - 0.5);
         addBox({wide, depth, 0.5 * down}, {0.0, y, top - 0.5 * down});
     }
-    bodies->addGround({10.0, 10.0, 0.5}, {0.0, 0.0, -rise * steps - 0.5});
+    bodies->addGround(osg::Vec3d(10.0, 10.0, 0.5) * size, {0.0, 0.0, -rise * steps - 0.5 * size});
     scene->addChild(fallDown(file, bodies));
     return scene;
 }

@@ -15,7 +15,8 @@
 /// Bodies in a world of Bullet, with Z up, and joints between them. They do not hit each other.
 class Bodies {
 public:
-    Bodies();
+    /// \param size of the figures, in those of a man: they fall as fast as he
+    explicit Bodies(double size);
     ~Bodies();
     Bodies(const Bodies&) = delete;
     Bodies& operator=(const Bodies&) = delete;
@@ -49,4 +50,5 @@ private:
 };
 
 /// The recipe fallDown, at the top of stairs.
-osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file);
+/// \param size of the figure, in those of a man
+osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size = 1.0);

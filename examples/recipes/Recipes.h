@@ -15,14 +15,16 @@ enum class Floor { Own, Plain, Shadowed };
 /// A recipe, and how it is shown.
 struct Recipe {
     const char* name; ///< of its function and its file
-    osg::ref_ptr<osg::Node> (*make)(const std::string& file);
+    /// \param size of the character, in heights of the samples
+    osg::ref_ptr<osg::Node> (*make)(const std::string& file, double size);
     const char* sample; ///< the character that it shows, see writeSamples()
     double time;        ///< of its picture, seconds
-    example::View view; ///< of its picture, in metres above `place`
+    example::View view; ///< of its picture, in metres above `place`, for the samples' size
     Floor floor = Floor::Shadowed;
     bool isWireframe = false;
     osg::Matrixd place{};   ///< from the view to the world
     bool fromStart = false; ///< a frame at time 0 comes before the picture's: something fades
+    bool isOfHead = false;  ///< the view moves with the character's head
 };
 
 /// All recipes, in the order of the page.

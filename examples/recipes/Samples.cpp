@@ -279,3 +279,16 @@ void writeSamples(const std::string& data, const std::string& folder) {
         if (file.path().filename().string().rfind("pedestrian", 0) == 0)
             std::filesystem::copy(file, folder, std::filesystem::copy_options::overwrite_existing);
 }
+
+std::string coarserOf(const std::string& file) {
+    namespace fs = std::filesystem;
+    const fs::path beside = fs::path(file).parent_path() / "coarse.skin";
+    if (fs::exists(beside)) return beside.generic_string();
+    const fs::path folder = fs::temp_directory_path() / "osgskin-recipes";
+    const std::string made = (folder / fs::path(file).stem()).generic_string() + ".coarse";
+    osgDB::makeDirectory(folder.generic_string());
+    writeCoarse(file, made + ".obj");
+    write(made + ".skin", "{ \"osgskin\": 1, \"mesh\": \"" + made + ".obj\", \"skeleton\": \"" +
+                              fs::absolute(file).generic_string() + "\" }\n");
+    return made + ".skin";
+}

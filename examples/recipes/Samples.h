@@ -15,3 +15,11 @@
 ///
 /// \throw std::exception where a file cannot be read or written
 void writeSamples(const std::string& data, const std::string& folder);
+
+/// A character with fewer triangles and the same joints: that of writeSamples() for the samples, or
+/// one beside it that is made of a model or a `.skin` file.
+///
+/// \param file of a character
+/// \return its file
+/// \throw std::exception where there is none
+std::string coarserOf(const std::string& file);

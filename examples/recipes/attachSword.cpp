@@ -24,11 +24,11 @@ osg::ref_ptr<osg::Node> attachSword(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
     const osg::ref_ptr<osgAnimation::Bone> hand = character.boneByRole("RightHand");
 
-    // In the scene, in the bind pose: in the palm, pointing ahead (-Y), as large as suits the arm.
+    // In the scene, in the bind pose: in the palm, pointing ahead (-Y), as large as suits a figure.
     const osg::Vec3d wrist = character.restPosition("RightHand");
     const osg::Vec3d forearm = wrist - character.restPosition("RightLowerArm");
     const osg::Matrixd inScene =
-        osg::Matrixd::scale(osg::Vec3d(1, 1, 1) * (forearm.length() / 0.28)) *
+        osg::Matrixd::scale(osg::Vec3d(1, 1, 1) * (character.restPosition("Head").z() / 1.6)) *
         osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osg::Vec3d(0.3, -1, 0.35)) *
         osg::Matrixd::translate(wrist + forearm * 0.35);
     const osg::ref_ptr<osg::MatrixTransform> inHand =

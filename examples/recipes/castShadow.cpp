@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
 
+#include <osg/ComputeBoundsVisitor>
 #include <osg/LightSource>
 #include <osg/ShapeDrawable>
 #include <osgShadow/ShadowMap>
@@ -20,13 +21,16 @@ osg::ref_ptr<osg::Node> castShadow(const std::string& file) {
     map->setLight(light);
     scene->addChild(light);
 
-    const osg::ref_ptr<osg::Node> floor =
-        new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.05f), 5, 5, 0.1f));
-    floor->setNodeMask(receives);
-    scene->addChild(floor);
-
     const osgSkin::Character character = osgSkin::loadCharacter(file);
     character.root->setNodeMask(receives | casts);
     scene->addChild(character.root);
+
+    osg::ComputeBoundsVisitor figure;
+    character.root->accept(figure);
+    const float size = 3 * figure.getBoundingBox().zMax();
+    const osg::ref_ptr<osg::Node> floor = new osg::ShapeDrawable(
+        new osg::Box(osg::Vec3(0, 0, -0.01f * size), size, size, 0.02f * size));
+    floor->setNodeMask(receives);
+    scene->addChild(floor);
     return scene;
 }

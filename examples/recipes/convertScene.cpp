@@ -29,8 +29,9 @@ osg::ref_ptr<osg::Node> convertScene(const std::string& file) {
         auto* manager = dynamic_cast<Manager*>(scene->getUpdateCallback());
         if (manager && !manager->getAnimationList().empty())
             manager->playAnimation(manager->getAnimationList().back());
-        const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(osg::Matrix::translate(isConverted ? 0.6 : -0.6, 0.0, 0.0));
+        const double aside = 0.5 * double(scene->getBound().radius());
+        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
+            osg::Matrix::translate(isConverted ? aside : -aside, 0.0, 0.0));
         place->addChild(scene);
         both->addChild(place);
     }

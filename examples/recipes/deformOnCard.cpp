@@ -2,6 +2,7 @@
 #include <osgSkinCharacter/LoadCharacter>
 #include <osgSkinGpu/GpuSkin>
 
+#include <osg/ComputeBoundsVisitor>
 #include <osg/FrameStamp>
 #include <osg/NodeVisitor>
 #include <osgText/Text>
@@ -26,8 +27,11 @@ osg::ref_ptr<osg::Node> deformOnCard(const std::string& file) {
 
     const osg::ref_ptr<osgText::Text> text = new osgText::Text;
     text->setAxisAlignment(osgText::Text::XZ_PLANE);
-    text->setPosition(osg::Vec3(-0.7f, 0.0f, 2.0f));
-    text->setCharacterSize(0.16f);
+    osg::ComputeBoundsVisitor figure;
+    character.root->accept(figure);
+    const float height = figure.getBoundingBox().zMax();
+    text->setPosition(osg::Vec3(-0.4f, 0.0f, 1.14f) * height);
+    text->setCharacterSize(0.09f * height);
     text->setDataVariance(osg::Object::DYNAMIC);
     text->setUpdateCallback(new ShowCount);
     character.root->addChild(text);

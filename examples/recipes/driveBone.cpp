@@ -11,14 +11,18 @@ namespace {
 
 /// Raises and lowers an arm on top of the clip that plays.
 struct Raise : osg::NodeCallback {
-    explicit Raise(const osg::Vec3d& skeletonAxis) : axis(skeletonAxis) {}
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         traverse(node, nv); // all bones below are now in the clip's pose
-        const double time = nv->getFrameStamp()->getSimulationTime();
-        const osg::Quat rotation(1.7 + 0.4 * std::sin(3.0 * time), axis);
-        osgSkin::rotateBone(static_cast<osgAnimation::Bone&>(*node), rotation);
+        auto& arm = static_cast<osgAnimation::Bone&>(*node);
+        const double angle = 0.5 + 0.4 * std::sin(3.0 * nv->getFrameStamp()->getSimulationTime());
+        osg::Quat rotation; // from the clip's direction of the arm to the wanted one
+        rotation.makeRotate(elbow->getMatrixInSkeletonSpace().getTrans() -
+                                arm.getMatrixInSkeletonSpace().getTrans(),
+                            side * std::cos(angle) + up * std::sin(angle));
+        osgSkin::rotateBone(arm, rotation);
     }
-    osg::Vec3d axis; ///< in the skeleton's space
+    osg::ref_ptr<osgAnimation::Bone> elbow;
+    osg::Vec3d side, up; ///< in the skeleton's space
 };
 
 } // namespace
@@ -26,10 +30,11 @@ struct Raise : osg::NodeCallback {
 /// A figure that walks with a raised arm.
 osg::ref_ptr<osg::Node> driveBone(const std::string& file) {
     osgSkin::Character character = osgSkin::loadCharacter(file);
-    // About the direction in which the figure looks: -Y in the scene.
     const osg::Matrixd fromScene = osg::Matrixd::inverse(character.toWorld);
-    osg::Vec3d axis = osg::Matrixd::transform3x3(osg::Vec3d(0, -1, 0), fromScene);
-    axis.normalize();
-    character.boneByRole("LeftUpperArm")->addUpdateCallback(new Raise(axis));
+    const osg::ref_ptr<Raise> raise = new Raise;
+    raise->elbow = character.boneByRole("LeftLowerArm");
+    raise->side = osg::Matrixd::transform3x3(osg::Vec3d(1, 0, 0), fromScene); // its left
+    raise->up = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), fromScene);
+    character.boneByRole("LeftUpperArm")->addUpdateCallback(raise);
     return character.root;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/LoadCharacter>
 
+#include <osg/ComputeBoundsVisitor>
 #include <osg/CoordinateSystemNode>
 #include <osg/MatrixTransform>
 #include <osg/ShapeDrawable>
@@ -17,12 +18,16 @@ osg::ref_ptr<osg::Node> largeWorld(const std::string& file) {
                                                         osg::DegreesToRadians(126.98), 38.0, place);
     const osg::ref_ptr<osg::MatrixTransform> here = new osg::MatrixTransform(place);
     here->addChild(character.root);
-    here->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.1f), 3, 3, 0.2f)));
+    osg::ComputeBoundsVisitor figure;
+    character.root->accept(figure);
+    const float height = figure.getBoundingBox().zMax(), size = 1.7f * height;
+    here->addChild(new osg::ShapeDrawable(
+        new osg::Box(osg::Vec3(0, 0, -0.05f * size), size, size, 0.1f * size)));
 
     const osg::ref_ptr<osgText::Text> text = new osgText::Text;
     text->setText(std::to_string(int(place.getTrans().length())) + " m");
-    text->setPosition(osg::Vec3(-0.7f, -0.9f, 0.02f)); // in floats: near to its transform's origin
-    text->setCharacterSize(0.25f);
+    text->setPosition(osg::Vec3(-0.4f, -0.5f, 0.01f) * height); // in floats: near to its origin
+    text->setCharacterSize(0.14f * height);
     here->addChild(text);
 
     const osg::ref_ptr<osg::Group> world = new osg::Group;

@@ -4,36 +4,35 @@
 #include <osg/LOD>
 #include <osg/MatrixTransform>
 
-namespace {
-
-/// One skeleton with two skins: the fine one up to 4 metres, the coarse one up to 50.
-osg::ref_ptr<osg::Node> makeLevels(const std::string& fineFile, const std::string& coarseFile) {
+/// One skeleton with two skins: the fine one is drawn where it is large in the picture.
+/// \param coarse file of a body with fewer triangles and the same joints
+osg::ref_ptr<osg::Node> makeLevels(const std::string& file, const std::string& coarse) {
     osgSkin::LoadOptions options;
     options.mergeRigid = true; // head, hands and feet, too, in the skins
-    osgSkin::Character fine = osgSkin::loadCharacter(fineFile, options);
+    osgSkin::Character fine = osgSkin::loadCharacter(file, options);
     options.atRest = true; // its own skeleton is not used
-    osgSkin::Character coarse = osgSkin::loadCharacter(coarseFile, options);
+    osgSkin::Character other = osgSkin::loadCharacter(coarse, options);
 
     const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
-    for (const osgSkin::Character* body : {&fine, &coarse})
+    levels->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN); // whatever unit the figure has
+    for (const osgSkin::Character* body : {&fine, &other})
         for (const osgSkin::AttachedSkin::Skin& skin : body->skin.skins) {
-            levels->addChild(skin.drawable, body == &fine ? 0.0f : 4.0f,
-                             body == &fine ? 4.0f : 50.0f);
+            levels->addChild(skin.drawable, body == &fine ? 500.0f : 5.0f,
+                             body == &fine ? 1e9f : 500.0f);
             skin.drawable->getParent(0)->removeChild(skin.drawable);
         }
     fine.skeleton->addChild(levels); // the last child: skins are updated after the bones
     return fine.root;
 }
 
-} // namespace
-
-/// Two such figures, 1.5 metres apart. The coarse body, for the same skeleton, is coarse.skin.
-osg::ref_ptr<osg::Node> levelsOfDetail(const std::string& file) {
+/// Two such figures, one farther away.
+osg::ref_ptr<osg::Node> levelsOfDetail(const std::string& file, const std::string& coarse) {
     osg::ref_ptr<osg::Group> scene = new osg::Group;
     for (const double step : {0.0, 1.0}) {
-        const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(osg::Matrix::translate(0.8 * step, 1.5 * step, 0.0));
-        place->addChild(makeLevels(file, file.substr(0, file.rfind('/') + 1) + "coarse.skin"));
+        const osg::ref_ptr<osg::Node> figure = makeLevels(file, coarse);
+        const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
+            osg::Matrix::translate(osg::Vec3d(0.8, 2, 0) * step * figure->getBound().radius()));
+        place->addChild(figure);
         scene->addChild(place);
     }
     return scene;

@@ -31,7 +31,7 @@ osg::ref_ptr<osg::Node> ownShader(const std::string& file) {
     program->addShader(new osg::Shader(osg::Shader::FRAGMENT, R"(#version 120
         varying vec3 t, h;
         void main() { float s = dot(normalize(t), normalize(h));
-          gl_FragColor = vec4(vec3(0.18, 0.2, 0.24) + 0.8 * pow(1.0 - s * s, 16.0), 1.0); })"));
+          gl_FragColor = vec4(vec3(0.18, 0.2, 0.24) + 0.8 * pow(1.0 - s * s, 6.0), 1.0); })"));
     character.root->getOrCreateStateSet()->setAttribute(program);
     return character.root;
 }

@@ -11,16 +11,37 @@
 #include <gtest/gtest.h>
 #include <osgDB/ReadFile>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace {
 
 const std::string kPictures = OSGSKIN_EXAMPLES "/pictures/recipes/";
 const std::string kSamples = OSGSKIN_TEST_OUTPUT "/recipes";
+const std::string kGiants = OSGSKIN_TEST_OUTPUT "/giants";
+
+/// Writes the samples again, 40 times as large.
+void writeGiants() {
+    const std::filesystem::path folder = kGiants;
+    std::filesystem::remove_all(folder);
+    std::filesystem::copy(kSamples, folder);
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+        if (file.path().extension() != ".skin") continue;
+        std::ifstream in(file.path());
+        std::string text((std::istreambuf_iterator<char>(in)), {});
+        in.close();
+        std::ofstream(file.path()) << text.insert(text.find('{') + 1, " \"unit\": 40,");
+    }
+}
 
 class Recipes : public testing::TestWithParam<Recipe> {
 protected:
-    static void SetUpTestSuite() { writeSamples(OSGSKIN_DATA, kSamples); }
+    static void SetUpTestSuite() {
+        writeSamples(OSGSKIN_DATA, kSamples);
+        writeGiants();
+    }
 };
 
 } // namespace
@@ -52,6 +73,25 @@ TEST_P(Recipes, ShowAnyCharacterOrSayWhyNot) {
             test::updateAt(*stage.scene, 0.1);
         } catch (const std::exception& error) {
             EXPECT_NE(std::string(error.what()).find(' '), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST_P(Recipes, ShowAGiantAsTheyShowAMan) {
+    const std::string sample = GetParam().sample;
+    if (std::filesystem::path(sample).extension() != ".skin") return; // others have no unit
+    if (GetParam().name == std::string("fallDown")) return; // Bullet's margins have a unit
+    const osg::ref_ptr<osg::Image> man = pictureOf(GetParam(), kSamples + "/" + sample, kSamples);
+    const osg::ref_ptr<osg::Image> giant = pictureOf(GetParam(), kGiants + "/" + sample, kSamples);
+    EXPECT_LE(test::unlikePixels(*man, *giant), test::pixelCount(*man) / 50);
+}
+
+TEST(RecipesWithoutClips, SayThatThereAreNone) {
+    writeSamples(OSGSKIN_DATA, kSamples);
+    for (const Recipe& recipe : recipes()) {
+        const std::string name = recipe.name;
+        if (name == "chooseClip" || name == "fadeClips" || name == "climbStairs") {
+            EXPECT_THROW(stageOf(recipe, kSamples + "/face.osgb", kSamples), std::exception);
         }
     }
 }
