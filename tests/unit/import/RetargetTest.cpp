@@ -326,7 +326,9 @@ protected:
         OSGSKIN_NEEDS(path);
         rig = osgSkin::importSkeleton(rigPath);
         motion = osgSkin::importMotion(path, 1);
-        clip = osgSkin::retarget(motion, rig, {}, &report);
+        osgSkin::RetargetOptions options;
+        options.collarsFollow = false;
+        clip = osgSkin::retarget(motion, rig, options, &report);
     }
 
     RestSkeleton rig;

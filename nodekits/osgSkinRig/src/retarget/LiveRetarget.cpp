@@ -39,6 +39,7 @@ public:
             _copy.emplace(source, rig, _map.motionJoint, *_pose.copied);
         else
             _transfer.emplace(source, rig, _map, _pose);
+        if (_transfer && options.collarsFollow && !_pose.isSame) _transfer->followArms(calibration);
         if (options.shareTwist && !_pose.copied) hinges.emplace(rig, _map.rig);
         if (report == nullptr) return;
         if (_copy)

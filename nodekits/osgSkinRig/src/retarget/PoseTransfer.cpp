@@ -48,6 +48,7 @@ void PoseTransfer::drive(const glm::dquat* local, const glm::dvec3& root) {
             _world[j] = parent < 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0)
                                    : _world[static_cast<std::size_t>(parent)];
     }
+    if (_collars) _collars->follow(_world);
     _feetRoll.straighten(_world);
 }
 

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace osgSkin {
@@ -26,6 +27,9 @@ public:
                  const StandingPose& standing);
     PoseTransfer(const PoseTransfer&) = delete;
     PoseTransfer& operator=(const PoseTransfer&) = delete;
+
+    /// Lets collar bones follow the arms, if a motion does not move them.
+    void followArms(const Motion& motion) { _collars.emplace(_body, motion); }
 
     /// Takes a pose.
     /// \param local rotations of the motion's joints, from its zero pose
@@ -62,6 +66,7 @@ private:
     const RestSkeleton _uprightRig, _uprightMotion; ///< the motion's in the pose counted from
     const RetargetTarget _body;
     const std::vector<glm::dquat> _alignment;
+    std::optional<CollarBones> _collars;
     FootRoll _feetRoll;
     RootPath _root;
     glm::dvec3 _motionRoot{0.0};

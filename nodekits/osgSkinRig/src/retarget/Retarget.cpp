@@ -46,8 +46,9 @@ Clip copied(const Motion& motion, const RestSkeleton& rig, const JointPairs& map
 }
 
 Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& map,
-             const StandingPose& pose, RetargetReport& report) {
+             const StandingPose& pose, const RetargetOptions& options, RetargetReport& report) {
     PoseTransfer transfer(motion.skeleton, rig, map, pose);
+    if (options.collarsFollow && !pose.isSame) transfer.followArms(motion);
     MeasureFeet feet(transfer.body());
     StandingCheck standing(map.rig, map.motion);
     Clip clip = clipFor(motion, rig);
@@ -105,7 +106,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     RetargetReport own;
     if (report == nullptr) report = &own;
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, *report)
-                            : aligned(motion, rig, map, pose, *report);
+                            : aligned(motion, rig, map, pose, options, *report);
     if (pose.isSame && !motion.moves.empty()) addMoves(motion, rig, map.motionJoint, *report, clip);
     if (options.shareTwist && !pose.copied) {
         const std::vector<std::size_t> shared = HingeTwist(rig, map.rig).share(clip);
