@@ -27,7 +27,7 @@ osg::ref_ptr<osg::Node> fadeClips(const std::string& file) {
     walk->player->setRoot(osgSkin::ClipPlayer::Root::FromFeet);
     walk->player->play({walk->player->clip(clips.walking)}, 0.3);
     osgSkin::ClipPlayer::Layer wave{walk->player->clip(other)};
-    wave.joints = osgSkin::jointsBelowRole(*wave.clip, "Spine");
+    wave.joints = osgSkin::jointsBelow(*wave.clip, "Spine");
     wave.weight = 0.0;
     walk->player->setLayer(3, wave);
     walk->player->fade(3, 1.0, 0.2, osgSkin::ClipPlayer::Easing::Smooth);

@@ -4,7 +4,6 @@
 #include <osgSkinRig/VmcPose>
 
 #include <lo/lo_cpp.h>
-#include <memory>
 
 /// A figure that moves as an actor does, whose poses come by the VMC protocol.
 osg::ref_ptr<osg::Node> receivePoses(const std::string& file,
@@ -28,10 +27,11 @@ osg::ref_ptr<osg::Node> receivePoses(const std::string& file,
     scene->addUpdateCallback(to); // which owns it
     scene->addChild((to->figure = osgSkin::loadCharacter(file)).root);
     to->server = server;
-    server->add_method({}, "sfffffff", [to](const char* path, const char*, lo_arg** a, int) {
-        const osg::Quat turn(a[4]->f, a[5]->f, a[6]->f, a[7]->f);
-        to->pose.take(path, &a[0]->s, {a[1]->f, a[2]->f, a[3]->f}, turn);
-    });
+    for (const char* types : {"sfffffff", "sfffffffffffff"}) // VMC 2.1's root has more numbers
+        server->add_method({}, types, [to](const char* path, const char*, lo_arg** a, int) {
+            const osg::Quat turn(a[4]->f, a[5]->f, a[6]->f, a[7]->f);
+            to->pose.take(path, &a[0]->s, {a[1]->f, a[2]->f, a[3]->f}, turn);
+        });
     server->add_method("/VMC/Ext/T", "f", [to](lo_arg** time, int) {
         to->isWhole = true;
         if (to->player) to->player->receive(time[0]->f, to->pose.rotations(), to->pose.root());

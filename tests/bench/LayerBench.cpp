@@ -26,7 +26,7 @@ void layers(benchmark::State& state, std::size_t count, Mask mask) {
         if (i > 0 && mask == Mask::AllJoints)
             layer.joints = osgSkin::jointsBelow(*layer.clip, body.rig.joints[0].name);
         if (i > 0 && mask == Mask::UpperBody)
-            layer.joints = osgSkin::jointsBelowRole(*layer.clip, "Spine");
+            layer.joints = osgSkin::jointsBelow(*layer.clip, "Spine");
         layer.additive = i == 3;
         moved += layer.joints.empty() ? body.rig.joints.size() : layer.joints.size();
         player->setLayer(i, layer);

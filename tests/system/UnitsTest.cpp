@@ -221,7 +221,10 @@ TEST(Units, OfFbxAreRead) {
         EXPECT_NEAR(character.metresPerUnit(), 0.01 * centimetres, 1e-9);
         EXPECT_NEAR(character.body.mesh.size(), 200.0, 1e-4); // rest space keeps the file's unit
         EXPECT_EQ(normalises(*character.root), centimetres != 100.0);
-        EXPECT_EQ(notices.text(), "");
+        EXPECT_EQ(notices.say("the body is 200 m tall by the unit that its file states"),
+                  centimetres == 100.0)
+            << notices.text();
+        EXPECT_EQ(notices.lines(), centimetres == 100.0 ? 1u : 0u) << notices.text();
     }
 }
 
@@ -246,6 +249,23 @@ TEST(Units, OfGltfAreMetres) {
     EXPECT_NEAR(heightOf(character), 2.9, 1e-5);
     EXPECT_FALSE(normalises(*character.root));
     EXPECT_NEAR(heightOf(file, "unit=0.01"), 0.029, 1e-6);
+}
+
+/// A file in centimetres cannot say so.
+TEST(Units, OfGltfAreDoubtedForGiants) {
+    for (const auto& [scale, isDoubted] : {std::make_pair(30.0, true), {5.0, false}}) {
+        test::GltfColumn column;
+        column.json["nodes"][0]["scale"] = {scale, scale, scale};
+        const std::string file = column.save("units_giant.gltf");
+        const test::Notices notices;
+        const Character character = loadCharacter(file);
+        EXPECT_EQ(notices.say("the body is 87 m tall by the unit that its file states (glTF: "
+                              "metres); set \"unit\" if they have another"),
+                  isDoubted)
+            << notices.text();
+        loadCharacter(file, test::loadOptions("unit=m"));
+        EXPECT_EQ(notices.lines(), isDoubted ? 1u : 0u) << notices.text();
+    }
 }
 
 TEST(Units, OfOtherFilesAreSetByOption) {

@@ -166,6 +166,19 @@ TEST_F(ReceivePoses, WaitsForSomeoneWhoStands) {
     EXPECT_LT(angle(armAt(0.6), osg::Y_AXIS), 1.0);
 }
 
+/// Its message of the root has a scale and an offset as well.
+TEST_F(ReceivePoses, FollowsTheRootOfVmc21) {
+    raise(0.0);
+    const lo::Address to("127.0.0.1", std::to_string(server->port()));
+    for (int i = 1; i <= 20; ++i) { // a quarter turn about Unity's up
+        to.send("/VMC/Ext/Root/Pos", "sfffffffffffff", "root", 0.0, 0.0, 0.0, 0.0, M_SQRT1_2, 0.0,
+                M_SQRT1_2, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0);
+        to.send("/VMC/Ext/T", "f", 0.34 + i / 60.0);
+        armAt(0.34 + i / 60.0);
+    }
+    EXPECT_LT(std::abs(armAt(0.7) * osg::X_AXIS), 0.02);
+}
+
 TEST_F(ReceivePoses, HoldsThePoseWhenPacketsAreLost) {
     raise(90.0);
     const osg::Vec3d arm = armAt(0.34);

@@ -121,6 +121,27 @@ TEST(Attach, ConstraintsInTheOneWay) {
     });
 }
 
+TEST(Attach, NamesTheLikelyJointOfAMisspeltOne) {
+    const Character character = makeColumn();
+    std::vector<Constraint> constraints = someConstraints();
+    constraints[0].source.name = "bace";
+    SpringSettings springs = someSprings(character);
+    springs.chains[0].joints[0].name = "midle";
+    const auto expectMeant = [](const char* meant, const auto& attachTo) {
+        try {
+            attachTo();
+            ADD_FAILURE() << meant;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(meant), std::string::npos) << error.what();
+        }
+    };
+    expectMeant("did you mean \"base\"?",
+                [&] { attach<Constraints>(*character.root, constraints); });
+    expectMeant("did you mean \"middle\"?", [&] { attach<SpringBones>(*character.root, springs); });
+    EXPECT_FALSE(find<Constraints>(*character.root));
+    EXPECT_FALSE(find<SpringBones>(*character.root));
+}
+
 TEST(Attach, HitBoxesInTheOneWay) {
     expectOneWay<HitBoxes>(
         [](osg::Node& root, const Character&) { return attach<HitBoxes>(root); });

@@ -58,7 +58,7 @@ void attachAll(Character& character) {
     player->setRoot(ClipPlayer::Root::ExtractedWithTurn);
     player->setLayer(0, {player->clip("Walking_A")});
     ClipPlayer::Layer wave{player->clip("Cheer"), 0.1, 1.3};
-    wave.joints = jointsBelowRole(*wave.clip, "Spine");
+    wave.joints = jointsBelow(*wave.clip, "Spine");
     wave.weight = 0.0;
     player->setLayer(3, wave);
     player->fade(3, 0.8, 0.7, ClipPlayer::Easing::Smooth);

@@ -300,7 +300,7 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     if (report.bodies.size() == 1) takeBody(report.bodies.front(), convert.bind, character);
     character.roles = recogniseJoints(character.rest);
     if (!isSaved) placeScene(unitOf(0.0, options, file, character.notes), character);
-    if (character.hasBody()) checkSize(character, options.unit.has_value());
+    if (character.hasBody() && !options.unit) checkSize(character, false);
     takeSceneMotions(options, character);
     stages.finish();
     return character;

@@ -65,6 +65,7 @@ private:
 thread_local std::vector<std::string> OpenFile::_files;
 
 constexpr double kMinHeight = 0.25, kMaxHeight = 5.0; ///< metres, of a body without a known unit
+constexpr double kStatedRoom = 2.0; ///< times as far may one be off whose file states its unit
 
 /// The steps that `.skin` files and rigged models share: everything after reading their files.
 Character makeCharacter(CharacterSource source, const LoadOptions& options, LoadStages& stages) {
@@ -86,7 +87,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     character.toWorld = osg::Matrixd::scale(metres, metres, metres) * source.toWorld;
     character.notes = std::move(source.notes);
     withFileContext(source.file, [&] { buildScene(source, options, character); });
-    checkSize(character, source.statedUnit > 0.0 || source.options.unit);
+    if (!source.options.unit) checkSize(character, source.statedUnit > 0.0);
     stages.finish();
     return character;
 }
@@ -119,12 +120,12 @@ Character loadFrom(const std::string& path, const LoadOptions& options) {
 
 } // namespace
 
-void checkSize(Character& character, bool unitIsKnown) {
-    if (unitIsKnown) return;
+void checkSize(Character& character, bool unitIsStated) {
     // A figure without known joints may be a mouse or a giraffe.
     const bool isFigure = character.roles.known();
-    const double least = isFigure ? kMinHeight : 0.0;
-    const double most = isFigure ? kMaxHeight : 2.0 * kMaxHeight;
+    const double room = unitIsStated ? kStatedRoom : 1.0;
+    const double least = isFigure ? kMinHeight / room : 0.0;
+    const double most = (isFigure ? kMaxHeight : 2.0 * kMaxHeight) * room;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const glm::dvec3& position : character.body.mesh.positions) {
         const double z = (toOsg(position) * character.toWorld).z();
@@ -134,9 +135,10 @@ void checkSize(Character& character, bool unitIsKnown) {
     if (high - low >= least && high - low <= most) return;
     std::ostringstream note;
     note.imbue(std::locale::classic());
-    note << character.file << ": the body is " << std::setprecision(3) << high - low
-         << " m tall, as the files state no unit and metres are assumed; set \"unit\" if they have "
-            "another";
+    note << character.file << ": the body is " << std::setprecision(3) << high - low << " m tall"
+         << (unitIsStated ? " by the unit that its file states (glTF: metres)"
+                          : ", as the files state no unit and metres are assumed")
+         << "; set \"unit\" if they have another";
     warn(character.notes, note.str());
 }
 

@@ -52,11 +52,12 @@ void setRigidParts(CharacterSource& source, const std::vector<CharacterMotion>& 
 /// \throw Error with the file and the reason
 Binding bindSource(CharacterSource& source, const Progress& progress, BindReport& report);
 
-/// Warns about a body that is far larger or smaller than a person, where no unit is known.
+/// Warns about a body that is far larger or smaller than a person, where no option says its unit:
+/// files in centimetres may state that they are in metres, as all glTF files do.
 ///
 /// \param character with roles, placed in its scene
-/// \param unitIsKnown by its files or an option
-void checkSize(Character& character, bool unitIsKnown);
+/// \param unitIsStated by its files, which allows for giants and toys
+void checkSize(Character& character, bool unitIsStated);
 
 /// Reads a scene by osgDB and re-skins its rigs in place.
 ///

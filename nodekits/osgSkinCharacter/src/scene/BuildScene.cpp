@@ -7,6 +7,7 @@
 
 #include <osgSkin/AutoPlayManager>
 #include <osgSkin/Binding>
+#include <osgSkin/BoneReader>
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
@@ -315,6 +316,34 @@ osg::Matrixd frontRotation(const Character& character, const JointRoles& roles) 
         clipCentres(character.rest, character.motions.front().clip, character.toWorld));
 }
 
+/// Leaves out what files say of joints that the skeleton lacks.
+void dropUnknownJoints(CharacterSource& source, Character& character) {
+    const osgAnimation::BoneMap bones = bonesOf(*character.skeleton);
+    std::size_t dropped = 0;
+    const auto isUnknown = [&](const std::string& joint) {
+        if (bones.count(joint) != 0) return false;
+        ++dropped;
+        return true;
+    };
+    const auto drop = [](auto& list, const auto& isDropped) {
+        list.erase(std::remove_if(list.begin(), list.end(), isDropped), list.end());
+    };
+    drop(source.constraints, [&](const Constraint& each) {
+        return isUnknown(each.joint.name) || isUnknown(each.source.name);
+    });
+    for (SpringSettings::Chain& chain : source.springs.chains) {
+        if (!chain.centre.empty() && isUnknown(chain.centre)) chain.centre.clear();
+        drop(chain.joints,
+             [&](const SpringSettings::Joint& joint) { return isUnknown(joint.name); });
+    }
+    for (SpringSettings::Collider& collider : source.springs.colliders)
+        if (isUnknown(collider.joint)) collider.joint.clear();
+    if (dropped > 0)
+        warn(character.notes, character.file + ": " + std::to_string(dropped) +
+                                  " joints of constraints and springs are not in the skeleton; "
+                                  "left out");
+}
+
 } // namespace
 
 void buildScene(CharacterSource& source, const LoadOptions& options, Character& character) {
@@ -349,6 +378,8 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
         character.pose(character.motions.front(), 0);
     }
     play(character);
+    if (character.skeleton && (!source.constraints.empty() || !source.springs.chains.empty()))
+        dropUnknownJoints(source, character);
     if (!source.constraints.empty()) attach<Constraints>(*character.root, source.constraints);
     if (!source.springs.chains.empty() && source.options.springs.value_or(true))
         attach<SpringBones>(*character.root, source.springs);

@@ -5,6 +5,8 @@
 
 #include <osgSkin/BoneReader>
 #include <osgSkin/Error>
+#include <osgSkinRig/FindJoint>
+#include <osgSkinRig/ReadSkeleton>
 
 #include <osg/NodeVisitor>
 #include <osgAnimation/Bone>
@@ -80,6 +82,22 @@ Figure findFigure(osg::Node& root, const std::string& what) {
     result.skeleton = static_cast<osgAnimation::Skeleton*>(path.back());
     result.toWorld = osg::computeLocalToWorld(path);
     return result;
+}
+
+FigureJoints::FigureJoints(const Figure& figure)
+    : _figure(figure), _bones(bonesOf(*figure.skeleton)) {}
+
+void FigureJoints::resolve(std::string& name) {
+    if (_bones.count(name) != 0) return;
+    try {
+        if (_rest.joints.empty()) {
+            _rest = readSkeleton(*_figure.skeleton);
+            _roles = recogniseJoints(_rest);
+        }
+        name = _rest.joints[findJoint(_rest, name, _roles)].name;
+    } catch (const Error& error) {
+        _figure.fail(error.what());
+    }
 }
 
 osgAnimation::Skeleton* skeletonBelow(osg::Node& root) {

@@ -11,7 +11,7 @@
 #include <osgSkin/Pose>
 #include <osgSkinMotion/Constraints>
 #include <osgSkinMotion/MakeAnimation>
-#include <osgSkinRig/JointRoles>
+#include <osgSkinRig/FindJoint>
 
 #include <glm/geometric.hpp>
 #include <osg/NodeVisitor>
@@ -161,25 +161,20 @@ JointSample blend(const JointSample& a, const JointSample& b, double share) noex
 }
 
 std::vector<std::string> jointsBelow(const SampledClip& clip, const std::string& joint) {
+    std::size_t top = 0;
+    try {
+        top = findJoint(restOf(clip), joint);
+    } catch (const Error& error) {
+        throw Error("sampled clip \"" + clip.name() + "\": " + error.what());
+    }
     std::vector<std::string> result;
     std::vector<bool> isBelow;
     for (const SampledClip::Joint& each : clip.joints()) {
-        isBelow.push_back(each.name == joint ||
+        isBelow.push_back(isBelow.size() == top ||
                           (each.parent >= 0 && isBelow[static_cast<std::size_t>(each.parent)]));
         if (isBelow.back()) result.push_back(each.name);
     }
-    if (result.empty())
-        throw Error("sampled clip \"" + clip.name() + "\": no joint \"" + joint + "\"");
     return result;
-}
-
-std::vector<std::string> jointsBelowRole(const SampledClip& clip, const std::string& role) {
-    const RestSkeleton rest = restOf(clip);
-    const int joint = recogniseJoints(rest).joint(role);
-    if (joint < 0)
-        throw Error("sampled clip \"" + clip.name() + "\": no joint has the role \"" + role +
-                    "\"; expected a body with names as JointNames has them");
-    return jointsBelow(clip, rest.joints[static_cast<std::size_t>(joint)].name);
 }
 
 osg::ref_ptr<const SampledClip> SampledClip::create(const Clip& clip, const RestSkeleton& rig) {

@@ -194,6 +194,10 @@ Constraints::~Constraints() = default;
 osg::ref_ptr<Constraints> Constraints::create(osg::Node& root,
                                               std::vector<Constraint> constraints) {
     const Figure figure = findFigure(root, "constraints");
+    FigureJoints joints(figure);
+    for (Constraint& constraint : constraints)
+        for (Constraint::Joint* joint : {&constraint.joint, &constraint.source})
+            joints.resolve(joint->name);
     try {
         return new Constraints(std::move(constraints));
     } catch (const Error& error) {

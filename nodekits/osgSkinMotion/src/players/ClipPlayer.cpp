@@ -125,7 +125,16 @@ osg::ref_ptr<const SampledClip> ClipPlayer::clip(const std::string& name) {
 }
 
 void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
-    _layers->set(index, layer);
+    const auto isKnown = [&](const std::string& joint) {
+        if (layer.clip->find(joint) >= 0) return true;
+        for (std::size_t i = 0; i < kMaxLayers; ++i) // a clip may lack some that others move
+            if (getLayer(i).clip && getLayer(i).clip->find(joint) >= 0) return true;
+        return false;
+    };
+    Layer named = layer;
+    for (std::string& joint : named.joints)
+        if (layer.clip && !isKnown(joint)) joint = jointsBelow(*layer.clip, joint).front();
+    _layers->set(index, named);
 }
 
 const ClipPlayer::Layer& ClipPlayer::getLayer(std::size_t index) const {
@@ -153,7 +162,7 @@ void ClipPlayer::play(const Layer& layer, double fade, Easing easing) {
 }
 
 bool ClipPlayer::playOn(const std::string& joint, const Layer& layer, double fade, Easing easing) {
-    if (!layer.clip || layer.clip->find(joint) < 0) return false;
+    if (!layer.clip) return false;
     Layer part = layer;
     part.joints = jointsBelow(*layer.clip, joint);
     _layers->playOn(part, fade, easing);

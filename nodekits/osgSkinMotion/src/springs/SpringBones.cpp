@@ -345,7 +345,16 @@ SpringBones::SpringBones(const SpringBones& other, const osg::CopyOp& copyop)
 SpringBones::~SpringBones() = default;
 
 osg::ref_ptr<SpringBones> SpringBones::create(osg::Node& root, const SpringSettings& settings) {
-    return new SpringBones(settings, findFigure(root, "spring bones").toWorld);
+    const Figure figure = findFigure(root, "spring bones");
+    FigureJoints joints(figure);
+    SpringSettings named = settings;
+    for (SpringSettings::Chain& chain : named.chains) {
+        if (!chain.centre.empty()) joints.resolve(chain.centre);
+        for (SpringSettings::Joint& joint : chain.joints) joints.resolve(joint.name);
+    }
+    for (SpringSettings::Collider& collider : named.colliders)
+        if (!collider.joint.empty()) joints.resolve(collider.joint);
+    return new SpringBones(named, figure.toWorld);
 }
 
 osg::Node& SpringBones::nodeFor(osg::Node& root) const {
