@@ -20,6 +20,7 @@
 #include <osgSkin/SetMorph>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinMotion/SpringBones>
 #include <osgSkinRig/FaceNames>
 
 #include <nlohmann/json.hpp>
@@ -370,6 +371,20 @@ struct TemporaryFile {
     }
 };
 
+/// Tells what a rigged file cannot hold.
+void reportLeftOut(const Character& character) {
+    std::string leftOut;
+    if (osgSkin::find<osgSkin::SpringBones>(*character.root)) leftOut = "spring bones";
+    const std::vector<osgSkin::RestJoint>& joints = character.rest.joints;
+    if (std::any_of(joints.begin(), joints.end(),
+                    [](const osgSkin::RestJoint& joint) { return !joint.role.empty(); }))
+        leftOut +=
+            std::string(leftOut.empty() ? "" : ", and ") + "which joint is which part of the body";
+    if (!leftOut.empty())
+        std::cerr << osgSkin::onOneLine(character.file) << ": left out: " << leftOut << '\n'
+                  << std::flush;
+}
+
 void bakeRigged(const Arguments& arguments, Character& character) {
     const std::vector<bake::RiggedClip> clips = riggedClips(arguments, character);
     const bool isScene = bake::isSceneFile(arguments.rigged);
@@ -382,8 +397,13 @@ void bakeRigged(const Arguments& arguments, Character& character) {
     std::cerr << arguments.rigged << ": " << report.joints << " joints, " << report.helpers
               << " helper joints, " << clips.size() << " clips, " << report.morphs
               << " morph targets and " << report.correctives << " of correctives; skin is at most "
-              << report.worst << " of a limb's radius off in the poses of the fit\n"
+              << report.worst << " of a limb's radius off "
+              << (clips.empty()
+                      ? "where joints bend far: no clip would move helper joints, so limbs "
+                        "lose volume as with any linear blending\n"
+                      : "in the poses of the fit\n")
               << std::flush;
+    reportLeftOut(character);
 }
 
 /// Finds nodes of a character's scene that are not its body: props, scenery, objects without a rig.

@@ -237,11 +237,27 @@ TEST(RiggedGlb, HasJointsAndNoHelpersWithoutClips) {
     const auto baked = runBake(file + "--rigged still.glb", folder);
     ASSERT_EQ(baked.status, 0) << baked.err;
     test::expectContains(baked.err, "still.glb: 3 joints, 0 helper joints, 0 clips");
+    test::expectContains(baked.err, "no clip would move helper joints");
     const nlohmann::json json = GltfReference(folder + "/still.glb").json;
     EXPECT_EQ(json.count("animations"), 0u);
     ASSERT_EQ(json["skins"][0]["joints"].size(), 3u);
     EXPECT_EQ(json["nodes"][2]["name"], "top");
     EXPECT_NEAR(json["nodes"][2]["translation"][1], 1.0, 1e-9);
+}
+
+TEST(RiggedGlb, TellsWhatIsLeftOut) {
+    const std::string folder = test::makeTestFolder();
+    GltfColumn column;
+    const auto errors = [&] {
+        return runBake("'" + column.save("hair.vrm") + "' --rigged hair.glb", folder).err;
+    };
+    EXPECT_EQ(errors().find("left out"), std::string::npos) << errors();
+    column.json["extensions"]["VRMC_springBone"]["springs"] = {
+        {{"joints", {{{"node", 1}}, {{"node", 2}}}}}};
+    test::expectContains(errors(), "hair.vrm: left out: spring bones\n");
+    column.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]["hips"]["node"] = 0;
+    test::expectContains(errors(),
+                         "left out: spring bones, and which joint is which part of the body\n");
 }
 
 TEST(RiggedGlb, IsInMetresWithYUp) {
