@@ -36,5 +36,5 @@ inline std::size_t partialJoints(const osgSkin::Binding& binding, std::size_t ve
 }
 
 /// Expects the invariants of every binding at every vertex: it validates, no joint's ratio exceeds
-/// its parent's, and no more joints are partial than the runtime supports.
-void expectSound(const osgSkin::Binding& binding);
+/// its parent's, and no more joints are partial than were asked for.
+void expectSound(const osgSkin::Binding& binding, std::size_t maxPartial = 4);

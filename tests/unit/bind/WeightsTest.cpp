@@ -5,6 +5,7 @@
 #include "SharedBody.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/SkinModel>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
 
@@ -52,6 +53,36 @@ TEST(BindWeights, RatioIsTheShareOfTheSubtree) {
         EXPECT_NEAR(ratiosOf(binding, v, 1).bend, first, 1e-4) << "at " << y;
         EXPECT_NEAR(ratiosOf(binding, v, 2).bend, second, 1e-4) << "at " << y;
         EXPECT_EQ(ratiosOf(binding, v, 1).bend, ratiosOf(binding, v, 1).twist);
+    }
+}
+
+/// Two equal chains side by side, as control rigs have them; the joints' indices begin at 1.
+TEST(BindWeights, SharedByBranchesAreNotFollowedTwice) {
+    for (const int length : {3, 6}) {
+        SkinMesh mesh = shapes::cylinder();
+        RestSkeleton skeleton;
+        skeleton.add("root", -1, glm::dvec3(0.0));
+        for (const int chain : {0, 1})
+            for (int j = 0; j < length; ++j)
+                skeleton.add("c" + std::to_string(chain) + std::to_string(j),
+                             j == 0 ? 0 : chain * length + j, glm::dvec3(0.0, 1.0 + 0.5 * j, 0.0));
+        const auto tips = [&](double share) {
+            return VertexWeights(mesh.positions.size(),
+                                 {{static_cast<std::uint32_t>(length), 1.0 - share},
+                                  {static_cast<std::uint32_t>(2 * length), share}});
+        };
+        BindReport report;
+        const Binding half = bindWeights(mesh, skeleton, tips(0.5), {}, &report);
+        const Binding third = bindWeights(mesh, skeleton, tips(1.0 / 3.0));
+        // Eight ratios may be partial; else the smaller weight is left out.
+        const bool isWhole = length == 3;
+        EXPECT_EQ(report.cappedVertices, isWhole ? 0 : mesh.positions.size());
+        for (const std::size_t j : {std::size_t(1), std::size_t(length)}) {
+            const std::size_t twin = j + std::size_t(length);
+            EXPECT_NEAR(ratiosOf(half, 0, j).bend + ratiosOf(half, 0, twin).bend, 1.0, 1e-6);
+            EXPECT_NEAR(ratiosOf(third, 0, j).bend, isWhole ? 2.0 / 3.0 : 1.0, 1e-6);
+            EXPECT_NEAR(ratiosOf(third, 0, twin).bend, isWhole ? 1.0 / 3.0 : 0.0, 1e-6);
+        }
     }
 }
 
@@ -245,7 +276,7 @@ TEST(BindWeights, RatiosOfABodyAgreeWithItsPaintedWeights) {
             if (painted[v][j] > 0.0) weights[v].push_back({j, painted[v][j]});
     BindReport report;
     const Binding binding = bindWeights(mesh, skeleton, weights, {}, &report);
-    expectSound(binding);
+    expectSound(binding, osgSkin::SkinModel::kMaxPartialInfluences); // at branches
     std::size_t capped = 0;
     for (std::size_t v = 0; v < painted.size(); ++v) {
         double all = 0.0, worst = 0.0;
@@ -260,5 +291,5 @@ TEST(BindWeights, RatiosOfABodyAgreeWithItsPaintedWeights) {
         if (worst > 2e-4) ++capped; // only if there were more than 4 partial joints
     }
     EXPECT_LE(capped, report.cappedVertices);
-    EXPECT_LT(static_cast<double>(capped), 0.08 * static_cast<double>(painted.size()));
+    EXPECT_LT(static_cast<double>(capped), 0.03 * static_cast<double>(painted.size()));
 }

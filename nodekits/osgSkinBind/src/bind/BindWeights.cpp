@@ -10,6 +10,7 @@
 #include "ratios/PackInfluences.h"
 
 #include <osgSkin/Error>
+#include <osgSkin/SkinModel>
 #include <osgSkinRig/JointRoles>
 
 #include <algorithm>
@@ -88,6 +89,10 @@ std::size_t inferMissingRoles(const WeldedMesh& skin, WeightRows& rows) {
     return gaps.size();
 }
 
+bool isLess(const JointShare& a, const JointShare& b) {
+    return a.weight < b.weight;
+}
+
 /// Computes ratios from weights, in memory that is reused for each vertex.
 class WeightRatios {
 public:
@@ -107,7 +112,43 @@ public:
         return _ratios;
     }
 
+    /// Appends a vertex's influences, as packInfluences() does, of which more than `most` may be
+    /// partial where its joints are on several branches.
+    /// \return whether some were left out
+    bool pack(std::vector<JointShare> weights, std::size_t most,
+              std::vector<Influence>& influences) {
+        of(weights);
+        bool isCapped = false;
+        if (partial() > most && isBranched()) {
+            most = SkinModel::kMaxPartialInfluences;
+            while (partial() > most) { // leaves out the least weight
+                weights.erase(std::min_element(weights.begin(), weights.end(), isLess));
+                of(weights);
+                isCapped = true;
+            }
+        }
+        return packInfluences(_ratios, most, influences) || isCapped;
+    }
+
 private:
+    /// Whether the last ratios' joints are not all on one way from the root: these cannot be
+    /// stretched, since those side by side would be followed in full together, or not at all.
+    bool isBranched() const {
+        for (std::size_t r = 1; r < _ratios.size(); ++r)
+            if (_joints[_ratios[r].joint].parent != static_cast<int>(_ratios[r - 1].joint))
+                return true;
+        return false;
+    }
+
+    /// How many of the last ratios are partial.
+    std::size_t partial() const {
+        constexpr double kNothing = 1e-4; // as packInfluences() has it
+        return static_cast<std::size_t>(
+            std::count_if(_ratios.begin(), _ratios.end(), [](const JointRatio& ratio) {
+                return ratio.bend >= kNothing && ratio.bend <= 1.0 - kNothing;
+            }));
+    }
+
     const std::vector<PlannedJoint>& _joints;
     std::vector<double> _sums;
     std::vector<JointRatio> _ratios;
@@ -118,10 +159,7 @@ std::vector<std::uint32_t> heaviestJoints(const WeightRows& rows) {
     std::vector<std::uint32_t> result;
     result.reserve(rows.size());
     for (const auto& row : rows)
-        result.push_back(
-            std::max_element(row.begin(), row.end(), [](const JointShare& a, const JointShare& b) {
-                return a.weight < b.weight;
-            })->joint);
+        result.push_back(std::max_element(row.begin(), row.end(), isLess)->joint);
     return result;
 }
 
@@ -190,7 +228,7 @@ Binding bindWeights(const SkinMesh& mesh, const RestSkeleton& skeleton,
     std::size_t partial = 0;
     for (const std::uint32_t v : skin.weldedOf) {
         binding.regions.push_back(heaviest[v]);
-        if (packInfluences(ratios.of(rows[v]), options.maxPartialInfluences, binding.influences))
+        if (ratios.pack(rows[v], options.maxPartialInfluences, binding.influences))
             ++found.cappedVertices;
         for (std::size_t i = binding.firstInfluence.back(); i < binding.influences.size(); ++i)
             if (binding.influences[i].isFractional()) ++partial;
