@@ -178,6 +178,58 @@ TEST_F(StandingPose, SameJointsInAnotherPoseMoveAlike) {
         ASSERT_LT(glm::distance(clip.rootPositions[f], expected.rootPositions[f]), 1e-6);
 }
 
+/// One more joint, with a name that would have another role.
+TEST_F(StandingPose, NamesakesArePairedBeforeRoles) {
+    RestSkeleton pelvic = rig;
+    Motion without = actor, motion = rebasedFrom(actor, folded(joints), true);
+    for (RestSkeleton* each : {&pelvic, &without.skeleton, &motion.skeleton})
+        each->joints[0].name = "Pelvis";
+    RestJoint hips = motion.skeleton.joints[0];
+    hips.name = "Hips";
+    hips.frame = kIdentity;
+    for (RestJoint& joint : motion.skeleton.joints) ++joint.parent;
+    motion.skeleton.joints.insert(motion.skeleton.joints.begin(), hips);
+    for (std::size_t f = 0; f < motion.frames; ++f)
+        motion.rotations.insert(motion.rotations.begin() + std::ptrdiff_t(f * (joints + 1)),
+                                kIdentity);
+    RetargetReport report;
+    const Clip expected = retarget(without, pelvic);
+    const Clip clip = retarget(motion, pelvic, {}, &report);
+    EXPECT_TRUE(saysOf(report, "local rotations are copied")) << report.text().substr(0, 300);
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+        ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 1e-4);
+}
+
+/// A rig that binds no joints above the hips does not stand by itself.
+TEST_F(StandingPose, SameJointsNeedNobodyWhoStands) {
+    Motion sitting = actor;
+    for (std::size_t f = 0; f < sitting.frames; ++f)
+        for (const char* leg : {"LeftLeg", "RightLeg"})
+            sitting.rotations[f * joints + std::size_t(rig.find(leg))] =
+                turnDegrees(120, {1, 0, 0});
+    RestSkeleton legs;
+    for (const RestJoint& joint : rig.joints)
+        if (joint.name.find("Hip") != std::string::npos ||
+            joint.name.find("Leg") != std::string::npos ||
+            joint.name.find("Foot") != std::string::npos ||
+            joint.name.find("Toe") != std::string::npos) {
+            RestJoint own = joint;
+            if (own.parent >= 0) own.parent = legs.find(rig.joints[std::size_t(joint.parent)].name);
+            legs.joints.push_back(own);
+        }
+    const Motion motion = rebasedFrom(sitting, folded(joints), true);
+    RetargetReport report;
+    const Clip clip = retarget(motion, legs, {}, &report);
+    EXPECT_TRUE(saysOf(report, "local rotations are copied")) << report.text().substr(0, 300);
+    for (std::size_t f = 0; f < clip.frames; ++f)
+        for (std::size_t j = 1; j < clip.joints; ++j)
+            ASSERT_LT(
+                angleBetween(
+                    clip.rotations[f * clip.joints + j],
+                    sitting.rotations[f * joints + std::size_t(rig.find(legs.joints[j].name))]),
+                1e-4);
+}
+
 /// The same through files, the animation's without a mesh and posed like its first sample.
 TEST_F(StandingPose, GltfAnimationMovesItsCharacter) {
     const std::string stem = testing::TempDir() + "osgskin_animation_only_";

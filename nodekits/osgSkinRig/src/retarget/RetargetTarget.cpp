@@ -18,6 +18,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -63,6 +64,41 @@ int byRole(const JointPairs& map, std::size_t j) {
         std::lround(fraction * static_cast<double>(theirs.size() - 1)))];
 }
 
+/// Gives a motion's joints the roles of the rig's joints that have their names, where all of these
+/// are below each other in the same way: one more joint in the motion may have led to other roles.
+void shareRoles(JointPairs& map, const RestSkeleton& rig, const RestSkeleton& motion,
+                const ByName& motionJoints) {
+    if (!map.rig.known()) return;
+    JointRoles shared;
+    shared.family = map.rig.family;
+    shared.roles.resize(motion.joints.size());
+    shared.parts.resize(motion.joints.size());
+    std::vector<bool> isNamesake(motion.joints.size(), false);
+    std::vector<int> nearest; // the namesake of a rig's joint or of the next one above that has one
+    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+        const int parent = rig.joints[j].parent;
+        const int above = parent < 0 ? -1 : nearest[static_cast<std::size_t>(parent)];
+        const auto found = motionJoints.find(rig.joints[j].name);
+        nearest.push_back(found == motionJoints.end() ? above : found->second);
+        if (found == motionJoints.end()) continue;
+        const auto m = static_cast<std::size_t>(found->second);
+        if (above >= 0 && motion.joints[m].parent != above) return;
+        isNamesake[m] = true;
+        shared.roles[m] = map.rig.roles[j];
+        shared.parts[m] = map.rig.parts[j];
+        if (!shared.roles[m].empty()) shared.joints[shared.roles[m]].push_back(found->second);
+    }
+    const auto ofNamesakes = shared.joints;
+    for (std::size_t m = 0; m < motion.joints.size(); ++m) { // the others keep roles that are left
+        const std::string& role = map.motion.roles[m];
+        if (isNamesake[m] || role.empty() || ofNamesakes.count(role) != 0) continue;
+        shared.roles[m] = role;
+        shared.parts[m] = map.motion.parts[m];
+        shared.joints[role].push_back(static_cast<int>(m));
+    }
+    map.motion = std::move(shared);
+}
+
 /// The motion joint of the same name, unless it is another part of the body.
 int byName(const JointPairs& map, const ByName& motion, const std::string& name, std::size_t j) {
     const auto found = motion.find(name);
@@ -93,6 +129,7 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
     map.rig = recogniseJoints(rig, options.names);
     map.motion = recogniseJoints(motion, options.names);
     if (isOneNameOnBothSides(map, rig, motion)) exchangeSides(map.motion);
+    shareRoles(map, rig, motion, motionJoints);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const std::string& name = rig.joints[j].name;
         const auto named = options.joints.find(name);

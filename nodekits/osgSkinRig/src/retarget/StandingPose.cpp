@@ -483,6 +483,11 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
                                    "): its trunk and feet may point elsewhere than the actor's");
     }
 
+    if (same && !zeroStands) {
+        result.copied = same;
+        result.notes.emplace_back("the rig has the motion's joints: local rotations are copied");
+        return result;
+    }
     if (zeroStands && (up == 0 || up == nearAxis(zero->up))) {
         const bool isAlong =
             samples.straightAxis() != 0 ? samples.straight(up) > 0 : samples.haveLegsAlong(up);
