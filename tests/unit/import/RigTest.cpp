@@ -315,4 +315,9 @@ TEST(ImportRig, RejectsFilesWithoutRig) {
     expectError([] { osgSkin::importRig(testData("rig/nowhere.glb")); }, "nowhere.glb");
     expectError([] { osgSkin::importRig(testData("mesh/unknown.format")); },
                 "are not read as rigs or motions");
+    for (const char* name : {"run.asf", "run.amc", "run.c3d", "run.trc"}) {
+        const std::string path = testing::TempDir() + name;
+        std::ofstream(path) << "recorded";
+        expectError([&] { osgSkin::importMotion(path); }, "Blender do");
+    }
 }

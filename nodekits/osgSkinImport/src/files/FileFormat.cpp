@@ -33,4 +33,13 @@ FileFormat formatOf(const std::string& path) {
     return {extension, isAssimp ? FileFormat::Assimp : FileFormat::Osg, true, true};
 }
 
+std::string adviceForCapture(const std::string& extension) {
+    if (extension == "asf" || extension == "amc")
+        return "; convert Acclaim's .asf and .amc to one .bvh file, as amc2bvh and Blender do";
+    if (extension == "c3d" || extension == "trc")
+        return "; it has markers, not joints: fit a skeleton to them, as motion capture programs "
+               "and Blender do, and export .bvh or .fbx";
+    return {};
+}
+
 } // namespace osgSkin

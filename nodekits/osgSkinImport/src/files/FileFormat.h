@@ -26,6 +26,11 @@ struct FileFormat {
 /// reader for them, or else to OSG.
 FileFormat formatOf(const std::string& path);
 
+/// Ends the refusal of a recording of motion capture that is no rig: what to convert it to. Else
+/// empty.
+/// \param extension in lower case
+std::string adviceForCapture(const std::string& extension);
+
 } // namespace osgSkin
 
 #endif

@@ -45,7 +45,8 @@ Scene readFile(const std::string& path, const ReadLimits& limits) {
                    ? "the file's name has no extension, expected that of its format"
                    : inQuotes("." + format.extension) +
                          " files are not read as rigs or motions, expected .bvh, .fbx, .glb or "
-                         "another that Assimp reads");
+                         "another that Assimp reads" +
+                         adviceForCapture(format.extension));
     SourceScene scene =
         format.reader == FileFormat::Gltf ? readGltf(path, limits) : readAssimpScene(path, limits);
     separateNames(scene, path);

@@ -210,10 +210,11 @@ osg::ref_ptr<osg::Node> readScene(const std::string& path, const osgDB::Options*
     const std::string& reason = read.message();
     // A pseudo-loader's name is not a file, and has its own reason.
     if (reason.empty() || read.notFound()) requireReadable(path, ReadLimits::of(options));
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
     if (reason.empty() || reason.rfind("Could not find plugin", 0) == 0)
-        failFile(path, "neither this build of Assimp nor OpenSceneGraph reads ." +
-                           osgDB::getLowerCaseFileExtension(path) +
-                           " files; expected glTF, FBX or another format that they read");
+        failFile(path, "neither this build of Assimp nor OpenSceneGraph reads ." + extension +
+                           " files; expected glTF, FBX or another format that they read" +
+                           adviceForCapture(extension));
     failFile(path, reason);
 }
 
