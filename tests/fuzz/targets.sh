@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Sourced by the scripts in this folder: the targets and their initial inputs.
-osgskin_fuzz_targets="obj ply off bvh gltf glb skin weights options model pose bind"
+osgskin_fuzz_targets="obj ply off bvh gltf glb skin weights options model pose motion bind"
 
 # osgskin_fuzz_seeds TARGET: prints its seed files, one per line.
 osgskin_fuzz_seeds() {
