@@ -26,7 +26,7 @@ btTransform toBullet(const osg::Matrixd& matrix) {
 
 } // namespace
 
-Bodies::Bodies(double size) {
+Bodies::Bodies(double size, const osg::Vec3d& push) : _push(push) {
     _world.setGravity({0, 0, btScalar(-9.81 * size)});
 }
 
@@ -45,27 +45,39 @@ void Bodies::addGround(const osg::Vec3d& half, const osg::Vec3d& centre) {
 }
 
 void Bodies::add(const std::shared_ptr<btConvexShape>& shape, double mass,
-                 const osg::Matrixd& place, int parent, const osg::Vec3d& joint) {
+                 const osgSkin::HitBoxes::Limb& limb, const osg::Matrixd& motion) {
     btVector3 inertia;
     shape->calculateLocalInertia(btScalar(mass), inertia);
     _shapes.push_back(shape);
+    const osg::Matrixd& rest = limb.shapes[0].frame;
     auto body = std::make_unique<btRigidBody>(btScalar(mass), nullptr, shape.get(), inertia);
-    body->setWorldTransform(toBullet(place));
-    body->setLinearVelocity({0, btScalar(-0.7 * place.getTrans().z()), 0}); // it tips over
+    body->setWorldTransform(toBullet(rest * motion));
+    body->setLinearVelocity(toBullet(_push * (rest * motion).getTrans().z())); // it tips over
     body->setDamping(0.05f, 0.6f);
     body->setFriction(0.6f);
     body->setActivationState(DISABLE_DEACTIVATION);
     _world.addRigidBody(body.get(), kBody, kGround);
-    if (parent >= 0) {
-        btRigidBody& other = *_bodies[std::size_t(parent)];
-        const btTransform at = toBullet(osg::Matrixd::translate(joint));
-        auto cone = std::make_unique<btConeTwistConstraint>(
-            *body, other, body->getWorldTransform().inverse() * at,
-            other.getWorldTransform().inverse() * at);
-        cone->setLimit(0.7f, 0.7f, 0.4f);
-        _world.addConstraint(cone.get(), true);
-        _joints.push_back(std::move(cone));
+    if (limb.parent >= 0) {
+        const auto parent = std::size_t(limb.parent);
+        if (limb.hinge * limb.hinge > 0.0) { // between places at rest, about Z of this one
+            osg::Matrixd at = osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), limb.hinge);
+            at.setTrans(limb.centre);
+            auto hinge = std::make_unique<btHingeConstraint>(
+                *body, *_bodies[parent], toBullet(at * osg::Matrixd::inverse(rest)),
+                toBullet(at * osg::Matrixd::inverse(_rest[parent])));
+            hinge->setLimit(btScalar(limb.straight), btScalar(limb.bent));
+            _joints.push_back(std::move(hinge));
+        } else {
+            const btTransform at = toBullet(osg::Matrixd::translate(limb.centre * motion));
+            auto cone = std::make_unique<btConeTwistConstraint>(
+                *body, *_bodies[parent], body->getWorldTransform().inverse() * at,
+                _bodies[parent]->getWorldTransform().inverse() * at);
+            cone->setLimit(0.6f, 0.6f, 0.4f);
+            _joints.push_back(std::move(cone));
+        }
+        _world.addConstraint(_joints.back().get(), true);
     }
+    _rest.push_back(rest);
     _bodies.push_back(std::move(body));
 }
 
@@ -85,9 +97,14 @@ void Bodies::stepTo(double time) {
 }
 
 osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size) {
+    return fallDownStairs(file, size, {0.0, -0.7, 0.0});
+}
+
+osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size,
+                                       const osg::Vec3d& push) {
     constexpr int steps = 8;
     const double rise = 0.17 * size, tread = 0.29 * size, wide = 1.2 * size;
-    const auto bodies = std::make_shared<Bodies>(size);
+    const auto bodies = std::make_shared<Bodies>(size, push);
     const osg::ref_ptr<osg::MatrixTransform> scene =
         new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, rise * steps));
     const auto addBox = [&](const osg::Vec3d& half, const osg::Vec3d& centre) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgSkinMotion/HitBoxes>
+
 #include <btBulletDynamicsCommon.h>
 
 #include <osg/Matrixd>
@@ -16,7 +18,8 @@
 class Bodies {
 public:
     /// \param size of the figures, in those of a man: they fall as fast as he
-    explicit Bodies(double size);
+    /// \param push metres a second, for each metre of height
+    Bodies(double size, const osg::Vec3d& push);
     ~Bodies();
     Bodies(const Bodies&) = delete;
     Bodies& operator=(const Bodies&) = delete;
@@ -24,12 +27,11 @@ public:
     /// Adds a box that does not move.
     void addGround(const osg::Vec3d& half, const osg::Vec3d& centre);
 
-    /// Adds a body, which moves a little forwards, along -Y.
+    /// Adds a limb's body. Elbows and knees are hinges, other joints turn by 35 degrees.
     /// \param mass kilogrammes
-    /// \param parent the body that carries it; -1: none
-    /// \param joint in which both may turn by 40 degrees
-    void add(const std::shared_ptr<btConvexShape>& shape, double mass, const osg::Matrixd& place,
-             int parent, const osg::Vec3d& joint);
+    /// \param motion of the limb from rest; it starts there, in the direction of the push
+    void add(const std::shared_ptr<btConvexShape>& shape, double mass,
+             const osgSkin::HitBoxes::Limb& limb, const osg::Matrixd& motion);
 
     std::size_t count() const { return _bodies.size(); }
     osg::Matrixd place(std::size_t body) const;
@@ -46,9 +48,14 @@ private:
     std::vector<std::shared_ptr<btCollisionShape>> _shapes;
     std::vector<std::unique_ptr<btRigidBody>> _grounds, _bodies;
     std::vector<std::unique_ptr<btTypedConstraint>> _joints;
+    std::vector<osg::Matrixd> _rest; ///< of the bodies
+    osg::Vec3d _push;
     double _time = -1.0;
 };
 
 /// The recipe fallDown, at the top of stairs.
 /// \param size of the figure, in those of a man
 osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size = 1.0);
+/// \param push see Bodies
+osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size,
+                                       const osg::Vec3d& push);

@@ -28,12 +28,11 @@ osg::ref_ptr<osg::Node> fallDown(const std::string& file, const std::shared_ptr<
     fall->bodies = bodies;
     for (const osgSkin::HitBoxes::Limb& limb : fall->hits->limbs()) {
         const auto& shape = limb.shapes[0];
-        const osg::Matrixd& motion = fall->hits->motion(bodies->count());
         const btVector3 half(float(shape.half.x()), float(shape.half.y()), float(shape.half.z()));
         const bool isBox = shape.kind == osgSkin::HitBoxes::Shape::Kind::Box;
         bodies->add(isBox ? std::shared_ptr<btConvexShape>(new btBoxShape(half))
                           : std::make_shared<btCapsuleShapeZ>(half.x(), 2 * half.z()),
-                    1000 * shape.volume(), shape.frame * motion, limb.parent, limb.centre * motion);
+                    1000 * shape.volume(), limb, fall->hits->motion(bodies->count()));
     }
     figure.bone(fall->hits->limbs()[0].joint)->addUpdateCallback(fall);
     return figure.root;

@@ -18,8 +18,8 @@ template <typename Archive>
 void AttachmentFile::pass(Archive& archive, HitBoxes& hits) {
     std::vector<HitBoxes::Limb> limbs = hits.limbs();
     archive(hits._toFigure);
-    archive.list(limbs, "limbs", 9, [&](HitBoxes::Limb& limb) {
-        archive(limb.joint, limb.parent, limb.centre);
+    archive.list(limbs, "limbs", 14, [&](HitBoxes::Limb& limb) {
+        archive(limb.joint, limb.parent, limb.centre, limb.hinge, limb.straight, limb.bent);
         archive.list(limb.shapes, "shapes", 39, [&](HitBoxes::Shape& shape) {
             archive.choice(shape.kind, 2, "a shape");
             archive(shape.frame, shape.half);

@@ -5,9 +5,11 @@
 #include "UpdateAt.h"
 
 #include <osgSkin/DeformableSkin>
+#include <osgSkinMotion/HitBoxes>
 
 #include <osg/Geometry>
 #include <osgAnimation/Bone>
+#include <osgAnimation/Skeleton>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace {
@@ -65,4 +68,45 @@ TEST(FallDown, EndsOnTheStairsInOnePiece) {
                                {"RightArm", "RightForeArm"},
                                {"Neck", "Head"}})
         EXPECT_NEAR(length(end, a, b), length(start, a, b), 1e-3) << a;
+}
+
+TEST(FallDown, BendsElbowsAndKneesForwardsAloneAndNecksALittle) {
+    for (int fall = 0; fall < 20; ++fall) {
+        const double angle = 2.4 * fall, speed = 0.5 + 0.05 * fall;
+        const osg::Vec3d push(std::sin(angle) * speed, -std::cos(angle) * speed, 0.0);
+        const osg::ref_ptr<osg::Node> scene =
+            fallDownStairs(OSGSKIN_DATA "/pedestrian.skin", 1.0, push);
+        const osgSkin::HitBoxes* hits = nullptr;
+        for (const auto& group : test::findNodes<osg::Group>(*scene))
+            if (auto* found = osgSkin::find<osgSkin::HitBoxes>(*group.node)) hits = found;
+        ASSERT_TRUE(hits);
+        const auto motion = [&](const char* joint) {
+            return hits->motion(std::size_t(hits->find(joint)));
+        };
+        for (int frame = 0; frame <= 180; ++frame) {
+            test::updateAt(*scene, frame / 60.0);
+            const auto joints = jointsOf(*scene);
+            for (const auto& [upper, lower, end] :
+                 {std::tuple{"LeftArm", "LeftForeArm", "LeftHand"},
+                  {"RightArm", "RightForeArm", "RightHand"},
+                  {"LeftUpLeg", "LeftLeg", "LeftFoot"},
+                  {"RightUpLeg", "RightLeg", "RightFoot"}}) {
+                osg::Vec3d above = joints.at(lower) - joints.at(upper),
+                           below = joints.at(end) - joints.at(lower);
+                above.normalize();
+                below.normalize();
+                const osg::Vec3d axis = osg::Matrixd::transform3x3(
+                    hits->limbs()[std::size_t(hits->find(lower))].hinge, motion(upper));
+                const double bend = std::atan2((above ^ below) * axis, above * below);
+                EXPECT_GT(osg::RadiansToDegrees(bend), -5.0) << lower << " in fall " << fall;
+            }
+            const osg::Quat turn =
+                (motion("Head") * osg::Matrixd::inverse(motion("Spine1"))).getRotate();
+            double neck = 0.0;
+            osg::Vec3d axis;
+            turn.getRotate(neck, axis);
+            neck = std::min(neck, 2.0 * osg::PI - neck);
+            EXPECT_LT(osg::RadiansToDegrees(neck), 80.0) << "in fall " << fall;
+        }
+    }
 }

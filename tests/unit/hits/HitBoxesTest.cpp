@@ -274,6 +274,21 @@ TEST_F(Pedestrian, HasLimbsWithParentsFirst) {
     EXPECT_EQ(hits->find("Tail"), -1);
 }
 
+TEST_F(Pedestrian, BendsKneesBackwardsAndElbowsForwards) {
+    hits = attach<HitBoxes>(*character.root);
+    for (const std::string side : {"Left", "Right"}) {
+        const auto& knee = hits->limbs()[limb(side + "LowerLeg")];
+        EXPECT_GT(knee.hinge.x(), 0.95) << side; // shins hang down, and go to +Y
+        EXPECT_NEAR(knee.straight, 0.0, 0.2);
+        const auto& elbow = hits->limbs()[limb(side + "LowerArm")];
+        osg::Vec3d forearm = hits->limbs()[limb(side + "Hand")].centre - elbow.centre;
+        forearm.normalize();
+        EXPECT_LT((elbow.hinge ^ forearm).y(), -0.9) << side; // the figure faces -Y
+        EXPECT_NEAR(elbow.bent - elbow.straight, 2.6, 1e-9);
+    }
+    EXPECT_EQ(hits->limbs()[limb("Head")].hinge, osg::Vec3d());
+}
+
 TEST_F(Pedestrian, HasOneShapeALimbIfAsked) {
     HitBoxes::Options options;
     options.maxShapes = 0; // clamped

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "hits/FitShapes.h"
 
+#include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkinRig/JointRoles>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -11,10 +13,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace osgSkin {
 namespace {
+
+constexpr double kSureBend = 0.35; ///< radians: a limb that rests so shows how it bends
+constexpr double kMaxBend = 2.6;   ///< radians from straight
 
 using Points = std::vector<glm::dvec3>;
 using Shape = HitBoxes::Shape;
@@ -377,6 +383,41 @@ std::vector<std::vector<Shape>> fitShapes(const std::vector<LimbSurface>& limbs,
     std::vector<std::vector<Shape>> result(limbs.size());
     for (const Piece& piece : pieces) result[piece.limb].push_back(shapeOf(piece.fit));
     return result;
+}
+
+void findHinges(const RestSkeleton& rest, const osg::Matrixd& toFigure,
+                std::vector<HitBoxes::Limb>& limbs) {
+    const JointRoles roles = recogniseJoints(rest);
+    const auto between = [&](const std::string& from, const std::string& to) {
+        const int a = roles.joint(from), b = roles.joint(to);
+        if (a < 0 || b < 0) return osg::Vec3d();
+        const auto centre = [&](int joint) {
+            return toOsg(rest.joints[std::size_t(joint)].centre) * toFigure;
+        };
+        osg::Vec3d direction = centre(b) - centre(a);
+        direction.normalize();
+        return direction;
+    };
+    const osg::Vec3d ahead = between("Hips", "Head") ^ between("LeftUpperLeg", "RightUpperLeg");
+    for (const std::string side : {"Left", "Right"})
+        for (const bool isArm : {true, false}) {
+            const std::string lower = side + (isArm ? "LowerArm" : "LowerLeg");
+            const osg::Vec3d above = between(side + (isArm ? "UpperArm" : "UpperLeg"), lower),
+                             below = between(lower, side + (isArm ? "Hand" : "Foot"));
+            const int joint = roles.joint(lower);
+            if (joint < 0 || !(above * above > 0.0) || !(below * below > 0.0)) continue;
+            const double bend = std::acos(std::clamp(above * below, -1.0, 1.0));
+            // Elbows bend forwards, knees backwards.
+            osg::Vec3d axis = bend > kSureBend ? above ^ below : below ^ (isArm ? ahead : -ahead);
+            if (!(axis.normalize() > 0.1)) continue;
+            const double sign = bend > kSureBend || (above ^ below) * axis >= 0.0 ? 1.0 : -1.0;
+            for (HitBoxes::Limb& limb : limbs) {
+                if (limb.joint != rest.joints[std::size_t(joint)].name) continue;
+                limb.hinge = axis;
+                limb.straight = -sign * bend;
+                limb.bent = limb.straight + kMaxBend;
+            }
+        }
 }
 
 } // namespace osgSkin

@@ -3,8 +3,10 @@
 #define OSGSKINMOTION_HITS_FITSHAPES_H
 
 #include <osgSkinMotion/HitBoxes>
+#include <osgSkinRig/RestSkeleton>
 
 #include <glm/vec3.hpp>
+#include <osg/Matrixd>
 
 #include <array>
 #include <cstdint>
@@ -33,6 +35,14 @@ HitBoxes::Shape fitShape(const LimbSurface& surface, double inside);
 std::vector<std::vector<HitBoxes::Shape>> fitShapes(const std::vector<LimbSurface>& limbs,
                                                     double bodyVolume,
                                                     const HitBoxes::Options& options);
+
+/// Finds how elbows and knees bend, by the joints' roles.
+///
+/// \param rest the figure's skeleton
+/// \param toFigure from rest space
+/// \param limbs get their hinges
+void findHinges(const RestSkeleton& rest, const osg::Matrixd& toFigure,
+                std::vector<HitBoxes::Limb>& limbs);
 
 } // namespace osgSkin
 

@@ -255,6 +255,7 @@ std::vector<Limb> fitLimbs(const ClipCharacter& character, const RestSkeleton& r
     }
     const auto shapes = fitShapes(surfaces, volume, options);
     for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i].shapes = shapes[i];
+    findHinges(rest, character.toWorld(), limbs);
     return limbs;
 }
 
