@@ -20,6 +20,7 @@
 #include <osgSkin/SetMorph>
 #include <osgSkinCharacter/Character>
 #include <osgSkinCharacter/LoadCharacter>
+#include <osgSkinMotion/Constraints>
 #include <osgSkinMotion/SpringBones>
 #include <osgSkinRig/FaceNames>
 
@@ -374,12 +375,17 @@ struct TemporaryFile {
 /// Tells what a rigged file cannot hold.
 void reportLeftOut(const Character& character) {
     std::string leftOut;
-    if (osgSkin::find<osgSkin::SpringBones>(*character.root)) leftOut = "spring bones";
+    const auto add = [&](bool isThere, const char* what) {
+        if (isThere) leftOut += std::string(leftOut.empty() ? "" : ", ") + what;
+    };
     const std::vector<osgSkin::RestJoint>& joints = character.rest.joints;
-    if (std::any_of(joints.begin(), joints.end(),
-                    [](const osgSkin::RestJoint& joint) { return !joint.role.empty(); }))
-        leftOut +=
-            std::string(leftOut.empty() ? "" : ", and ") + "which joint is which part of the body";
+    const bool isVrm =
+        std::any_of(joints.begin(), joints.end(),
+                    [](const osgSkin::RestJoint& joint) { return !joint.role.empty(); });
+    add(osgSkin::find<osgSkin::SpringBones>(*character.root) != nullptr, "spring bones");
+    add(osgSkin::find<osgSkin::Constraints>(*character.root) != nullptr, "constraints");
+    add(isVrm, "which joint is which part of the body");
+    add(isVrm && !character.morphs().empty(), "which morph targets are expressions");
     if (!leftOut.empty())
         std::cerr << osgSkin::onOneLine(character.file) << ": left out: " << leftOut << '\n'
                   << std::flush;

@@ -257,7 +257,10 @@ TEST(RiggedGlb, TellsWhatIsLeftOut) {
     test::expectContains(errors(), "hair.vrm: left out: spring bones\n");
     column.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]["hips"]["node"] = 0;
     test::expectContains(errors(),
-                         "left out: spring bones, and which joint is which part of the body\n");
+                         "left out: spring bones, which joint is which part of the body\n");
+    const nlohmann::json roll = {{"rotation", {{"source", 1}, {"weight", 1.0}}}};
+    column.json["nodes"][2]["extensions"]["VRMC_node_constraint"]["constraint"] = roll;
+    test::expectContains(errors(), "left out: spring bones, constraints, which joint");
 }
 
 TEST(RiggedGlb, IsInMetresWithYUp) {
