@@ -3,6 +3,7 @@
 #include "FileVersion.h"
 #include "RegisterWrapper.h"
 #include "serialize/BlockWords.h"
+#include "serialize/SharedObjects.h"
 
 #include <osgSkinMotion/Gaits>
 
@@ -186,8 +187,14 @@ Gaits::Set unpackSet(const std::vector<std::uint32_t>& words) {
 bool readSet(osgDB::InputStream& is, Gaits& gaits) {
     std::vector<std::uint32_t> words;
     if (!readWords(is, words)) return false;
+    // Files of one figure, as a simulator has one for each person, share its clips.
+    using Known = osgSkin::SharedObjects<Gaits>;
+    osgSkin::ContentHash content;
+    content.add(words.data(), words.size() * sizeof words[0]);
     try {
-        gaits.set(unpackSet(words));
+        const osg::ref_ptr<Gaits> same = Known::instance().find(content);
+        gaits.set(same ? same->get() : unpackSet(words));
+        Known::instance().add(content, &gaits, [](const Gaits&) { return true; });
     } catch (const std::exception& error) {
         is.throwException(std::string("osgSkin: ") + error.what()); // refuses the whole file
         return false;

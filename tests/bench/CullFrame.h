@@ -8,10 +8,12 @@
 
 namespace bench {
 
-/// Frames of a scene, 60 a second, with everything in view; nothing is drawn.
+/// Frames of a scene, 60 a second, with everything in view unless a camera is given; nothing is
+/// drawn.
 class CullFrame {
 public:
-    explicit CullFrame(osg::Group& scene) : _scene(&scene) {
+    explicit CullFrame(osg::Group& scene, int width = 1000, int height = 800)
+        : _scene(&scene), _viewport(new osg::Viewport(0, 0, width, height)) {
         _update->setFrameStamp(_stamp);
         _cull->setFrameStamp(_stamp);
     }
@@ -36,6 +38,13 @@ public:
     void cull() {
         const osg::BoundingSphere bound = _scene->getBound();
         const double r = 1.2 * static_cast<double>(bound.radius());
+        const osg::Vec3d centre = bound.center();
+        cull(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4 * r),
+             osg::Matrix::lookAt(centre + osg::Vec3d(0.0, 0.0, 2.0 * r), centre,
+                                 osg::Vec3d(0.0, 1.0, 0.0)));
+    }
+    void cull(const osg::Matrixd& projection, const osg::Matrixd& view) {
+        _scene->getBound();
         _graph->clean();
         _stage->reset();
         _cull->reset();
@@ -43,12 +52,8 @@ public:
         _cull->setStateGraph(_graph);
         _cull->setRenderStage(_stage);
         _cull->pushViewport(_viewport);
-        _cull->pushProjectionMatrix(
-            new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4 * r)));
-        const osg::Vec3d centre = bound.center();
-        const osg::ref_ptr<osg::RefMatrix> view = new osg::RefMatrix(osg::Matrix::lookAt(
-            centre + osg::Vec3d(0.0, 0.0, 2.0 * r), centre, osg::Vec3d(0.0, 1.0, 0.0)));
-        _cull->pushModelViewMatrix(view, osg::Transform::ABSOLUTE_RF);
+        _cull->pushProjectionMatrix(new osg::RefMatrix(projection));
+        _cull->pushModelViewMatrix(new osg::RefMatrix(view), osg::Transform::ABSOLUTE_RF);
         _scene->accept(*_cull);
         _cull->popModelViewMatrix();
         _cull->popProjectionMatrix();
@@ -62,7 +67,7 @@ private:
     osg::ref_ptr<osgUtil::CullVisitor> _cull = new osgUtil::CullVisitor;
     osg::ref_ptr<osgUtil::StateGraph> _graph = new osgUtil::StateGraph;
     osg::ref_ptr<osgUtil::RenderStage> _stage = new osgUtil::RenderStage;
-    osg::ref_ptr<osg::Viewport> _viewport = new osg::Viewport(0, 0, 1000, 800);
+    osg::ref_ptr<osg::Viewport> _viewport;
     unsigned int _frame = 0;
 };
 

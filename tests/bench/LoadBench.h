@@ -12,7 +12,8 @@ void addLoads();
 void addLoadedFrames();
 
 /// Adds the group "walkers": a pedestrian's loading, the memory of a thousand, and whole frames of
-/// them in a street, below a CharacterGroup and below any group.
+/// pedestrians and throwers whom a camera at street level sees, below a CharacterGroup and below
+/// any group.
 void addWalkers();
 
 } // namespace bench

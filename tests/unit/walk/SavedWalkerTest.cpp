@@ -78,6 +78,19 @@ TEST(SavedWalker, CopiesInOneFileShareTheirGaits) {
     EXPECT_NE(walkers[0].node, walkers[1].node);
 }
 
+TEST(SavedWalker, EqualFilesShareTheirClips) {
+    const osg::ref_ptr<osgSkin::Walker> made = walking::makeFigureWalker();
+    std::vector<osg::ref_ptr<osgSkin::Walker>> read;
+    for (const char* name : {"anna", "berta"}) {
+        const std::string file = testing::TempDir() + "/" + name + ".osgb";
+        ASSERT_TRUE(osgDB::writeNodeFile(*made, file));
+        read.push_back(dynamic_cast<osgSkin::Walker*>(osgDB::readRefNodeFile(file).get()));
+        ASSERT_TRUE(read.back());
+    }
+    EXPECT_NE(read[0]->getGaits(), read[1]->getGaits());
+    EXPECT_EQ(read[0]->getGaits()->get().walking.clip, read[1]->getGaits()->get().walking.clip);
+}
+
 std::string bytesOf(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

@@ -209,6 +209,7 @@ TEST(Walker, WavesOnceWhileItWalks) {
 TEST(Walker, WalksInACharacterGroupAsAlone) {
     const osg::ref_ptr<osgSkin::CharacterGroup> group = new osgSkin::CharacterGroup;
     const osg::ref_ptr<osgSkin::Walker> figure = walking::makeFigureWalker();
+    figure->setVaried(false);
     std::vector<osg::ref_ptr<osg::MatrixTransform>> places;
     std::vector<Walk> alone;
     for (int i = 0; i < 10; ++i) {

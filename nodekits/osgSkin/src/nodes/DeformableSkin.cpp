@@ -155,6 +155,7 @@ DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& c
         _extras->isMorphed = other._extras->isMorphed;
     }
     makeBuffers();
+    if (_backend && _model) _backend->skinChanged(*this);
     poseChanged();
 }
 
@@ -184,6 +185,7 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
     _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
     makeBuffers();
+    if (_backend) _backend->skinChanged(*this);
     poseChanged();
     for (std::size_t i = 0; i < inputs.size(); ++i) setActivation(inputs[i], before.input(i));
 }
@@ -216,6 +218,7 @@ void DeformableSkin::setTangentAttribute(int index) {
     _tangentAttribute = index;
     if (!_model) return;
     makeBuffers();
+    if (_backend) _backend->skinChanged(*this);
     poseChanged();
 }
 
@@ -251,21 +254,41 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
     return buffer;
 }
 
+/// Forgets the buffers but for the bounds. They are made when they are needed (fill()): characters
+/// that nobody has seen yet, or that a backend draws, own no vertices.
 void DeformableSkin::makeBuffers() {
     // The buffers' own GL objects go with them. Textures, programs and arrays may be shared, and a
     // draw thread may be using them: nothing is released here.
+    const osg::ref_ptr<osg::Geometry> before = _buffers[0];
     _buffers = {};
     _current = 0;
+    _dirty = true;
     _handedOut = false;
     if (!_rest) return;
-    for (osg::ref_ptr<osg::Geometry>& buffer : _buffers) buffer = makeDrawnGeometry();
-    if (_backend) _backend->skinChanged(*this);
+    _buffers[0] = new osg::Geometry;
+    if (before) _buffers[0]->setInitialBound(before->getInitialBound());
 }
+
+namespace {
+
+/// Makes the buffers where there are none.
+void fill(std::array<osg::ref_ptr<osg::Geometry>, 2>& buffers, const DeformableSkin& skin) {
+    if (buffers[1]) return;
+    const osg::BoundingBox bounds = buffers[0]->getInitialBound();
+    for (osg::ref_ptr<osg::Geometry>& buffer : buffers) {
+        buffer = skin.makeDrawnGeometry();
+        buffer->setInitialBound(bounds);
+        buffer->getBound(); // now: several cull threads may ask for it at once
+    }
+}
+
+} // namespace
 
 void DeformableSkin::setDrawBackend(DrawBackend* drawer) {
     uploadAgain();
     _backend = drawer;
     if (!_backend || !_model) return;
+    makeBuffers();
     _backend->skinChanged(*this);
     _backend->poseChanged(*this);
 }
@@ -377,6 +400,7 @@ void DeformableSkin::applyDrawSettings() {
     osg::Drawable::DrawCallback* const callback =
         getDrawCallback() ? getDrawCallback() : _rest->getDrawCallback();
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
+        if (!buffer) continue;
         if (buffer->getUseVertexArrayObject() != getUseVertexArrayObject())
             buffer->setUseVertexArrayObject(getUseVertexArrayObject());
         if (buffer->getDrawCallback() != callback) buffer->setDrawCallback(callback);
@@ -407,12 +431,16 @@ void DeformableSkin::poseChanged(const osg::BoundingBox& poseBounds) {
         bounds._min -= osg::Vec3(room, room, room);
         bounds._max += osg::Vec3(room, room, room);
     }
-    for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
-        buffer->setInitialBound(bounds);
-        buffer->getBound(); // now: several cull threads may ask for it at once
+    const osg::BoundingBox& before = _buffers[0]->getInitialBound();
+    if (bounds._min != before._min || bounds._max != before._max) {
+        for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers) {
+            if (!buffer) continue;
+            buffer->setInitialBound(bounds);
+            buffer->getBound(); // now: several cull threads may ask for it at once
+        }
+        dirtyBound();
+        getBound(); // now, as above
     }
-    dirtyBound();
-    getBound(); // now, as above
     if (_backend) _backend->poseChanged(*this);
     if (_eager) deform();
 }
@@ -421,6 +449,9 @@ void DeformableSkin::deform() const {
     if (!_dirty.load(std::memory_order_acquire)) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     if (!_dirty.load(std::memory_order_relaxed) || !_model) return;
+    auto& self = const_cast<DeformableSkin&>(*this); // deforming on demand is const
+    fill(self._buffers, *this);
+    self.applyDrawSettings();
     // A draw may still read the buffer that a cull handed out last. The other one is free: no
     // update begins before the draw of the last frame but one has ended.
     const unsigned int next = _handedOut ? 1 - _current : _current.load();
@@ -542,8 +573,9 @@ void DeformableSkin::drawImplementation(osg::RenderInfo& renderInfo) const {
 void DeformableSkin::compileGLObjects(osg::RenderInfo& renderInfo) const {
     // One context's thread may compile while another's deforms.
     const std::lock_guard<std::mutex> lock(_mutex);
+    if (_model && !_backend) fill(const_cast<DeformableSkin&>(*this)._buffers, *this);
     for (const osg::ref_ptr<osg::Geometry>& buffer : _buffers)
-        if (buffer) buffer->compileGLObjects(renderInfo);
+        if (buffer && _buffers[1]) buffer->compileGLObjects(renderInfo);
     if (_backend) _backend->compileGLObjects(renderInfo);
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgSkin/GlmOsg>
 #include <osgSkin/Pose>
 #include <osgSkinMotion/SampledClip>
 #include <osgSkinRig/RestSkeleton>
 
 #include <glm/gtc/quaternion.hpp>
+
+#include <osg/Matrixd>
 
 #include <cstddef>
 #include <vector>
@@ -31,6 +34,13 @@ inline JointMap inverse(const JointMap& a) {
 
 inline glm::dvec3 apply(const JointMap& map, const glm::dvec3& point) {
     return map.offset + map.scale * (map.rotation * point);
+}
+
+inline osg::Matrixd toMatrix(const JointMap& map) {
+    osg::Matrixd result = osg::Matrixd::rotate(toOsg(map.rotation));
+    if (map.scale != 1.0) result = osg::Matrixd::scale(map.scale, map.scale, map.scale) * result;
+    result.setTrans(toOsg(map.offset));
+    return result;
 }
 
 /// The rest pose of a clip's joints.

@@ -25,13 +25,6 @@
 namespace osgSkin {
 namespace {
 
-osg::Matrixd toMatrix(const JointMap& map) {
-    osg::Matrixd result = osg::Matrixd::rotate(toOsg(map.rotation));
-    if (map.scale != 1.0) result = osg::Matrixd::scale(map.scale, map.scale, map.scale) * result;
-    result.setTrans(toOsg(map.offset));
-    return result;
-}
-
 /// Baked bounds do not include activations.
 bool isActivated(const DeformableSkin& skin) {
     const std::size_t inputs = skin.getModel() ? skin.getModel()->inputs().size() : 0;
@@ -328,6 +321,7 @@ bool ClipPlayer::poseSkin(Skin& skin, const std::vector<JointMap>& own,
     const std::vector<BoundJoint>& joints = skin.skin->getModel()->joints();
     if (joints.size() != skin.joints.size()) return false;
     const auto set = [&](const std::vector<JointMap>& of) {
+        if (!baked && bounds) return skin.skin->setPose(of.data(), joints.size(), *bounds);
         if (!baked) return skin.skin->setPose(of.data(), joints.size(), twist);
         // Twists continue those of the sample, whatever was shown before.
         if (!skin.pose.setJoints(*baked) ||
@@ -414,7 +408,7 @@ bool ClipPlayer::poseAs(Pose::Twist twist) {
     }
     bool good = true;
     for (std::size_t i = 0; i < _skins.size(); ++i) {
-        const osg::BoundingBox* bounds = baked ? &baked->skins[i].boundsAt(at) : nullptr;
+        const osg::BoundingBox* bounds = baked ? &baked->skins[i].boundsAt(at) : knownBounds(i);
         const Pose* from = baked ? &baked->skins[i].poses[at.from] : nullptr;
         good = poseSkin(_skins[i], own, whole, twist, from, bounds) && good;
     }

@@ -38,12 +38,19 @@ glm::dquat aboutZ(double angle) {
 
 } // namespace
 
+/// Notes where on the ground a foot is.
+/// \param pivot where the clips have it
+void WalkPlayer::stayAt(Foot& foot, const glm::dvec3& pivot) {
+    foot.spot = transformPoint(_place, pivot + foot.offset);
+    foot.heading = transformDirection(_place, aboutZ(foot.turn) * _forward);
+}
+
 /// Makes a point of a foot's sole the one about which it turns and rolls.
 void WalkPlayer::rollOnto(Foot& foot, std::size_t side, SolePoint point) {
     const glm::dvec3 before = soleOf(side, foot.pivot), now = soleOf(side, point);
     foot.offset += before + aboutZ(foot.turn) * (now - before) - now;
     foot.pivot = point;
-    foot.spot = transformPoint(_place, now + foot.offset);
+    stayAt(foot, now);
 }
 
 /// Plants a foot where it is.
@@ -51,7 +58,6 @@ void WalkPlayer::plant(Foot& foot, std::size_t side) {
     foot.isPlanted = foot.isPlaced = true;
     foot.step = -1.0;
     rollOnto(foot, side, pivotOf(side, foot.pivot));
-    foot.heading = transformDirection(_place, aboutZ(foot.turn) * _forward);
 }
 
 /// Where feet are beside the clips' feet: planted ones keep their place on the ground, others come
@@ -63,12 +69,13 @@ void WalkPlayer::moveFeet(double dt, double phaseStep) {
     for (std::size_t side = 0; side < _feet.size(); ++side) {
         Foot& foot = _feet[side];
         foot.lift = 0.0;
+        const Gaits::Gait& gait = set.running.clip && _running > 0.5 ? set.running : set.walking;
         if (!foot.isPlaced) { // stand where the clips say
             foot.offset = glm::dvec3(0.0);
             foot.turn = 0.0;
             plant(foot, side);
+            foot.isPlanted = !goes || gait.contacts[side].contains(_phase);
         }
-        const Gaits::Gait& gait = set.running.clip && _running > 0.5 ? set.running : set.walking;
         const bool isStopping = goes && isStopped();
         // Where it stops, a foot in the air is put down as the figure comes to stand.
         const bool carries =

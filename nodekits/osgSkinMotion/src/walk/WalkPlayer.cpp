@@ -14,25 +14,17 @@
 namespace osgSkin {
 namespace {
 
-/// A longer way at once is no step, but the program placing the figure: half of a figure's height,
-/// as shares of its hips' height. A sprinter seen 20 times a second goes half as far.
-constexpr double kJump = 0.95;
-
-constexpr double kSpeedTime = 0.15; ///< seconds in which the measured speed follows
-constexpr double kStopTime = 0.13;  ///< longer without a move is a stop; simulators have 20 Hz
-constexpr double kShortest = 0.45;  ///< the shortest steps, as shares of the clip's
-
 constexpr double kLevel = 0.003; ///< leg lengths by which a point of the sole is lower
 
 } // namespace
 
-WalkPlayer::WalkPlayer(const osg::ref_ptr<const Gaits>& gaits)
-    : _gaits(gaits), _toWalker(toGlm(gaits->get().toWalker)), _fromRest(rotationOf(_toWalker)),
-      _forward(std::cos(gaits->get().facing), std::sin(gaits->get().facing), 0.0) {
-    const Gaits::Set& set = _gaits->get();
+WalkPlayer::WalkPlayer(const Gaits& gaits)
+    : GaitState(gaits, 0.0), _toWalker(toGlm(gaits.get().toWalker)),
+      _fromRest(rotationOf(_toWalker)) {
+    const Gaits::Set& set = gaits.get();
     _unit = glm::length(transformDirection(_toWalker, {0.0, 0.0, 1.0}));
     setLayer(0, {set.standing, 0.0, 0.0, true});
-    stand();
+    blendGaits();
     for (std::size_t side = 0; side < set.legs.size(); ++side) {
         _leg += 0.5 * legLength(set.legs[side]);
         _height += 0.5 * jointOf(set.legs[side].hip).z;
@@ -76,64 +68,6 @@ double WalkPlayer::legLength(const Gaits::Leg& leg) const {
     return glm::distance(knee, jointOf(leg.hip)) + glm::distance(jointOf(leg.ankle), knee);
 }
 
-/// The way of one cycle of what is shown.
-double WalkPlayer::stride() const {
-    const Gaits::Set& set = _gaits->get();
-    const double full =
-        set.walking.stride +
-        _running * (set.running.clip ? set.running.stride - set.walking.stride : 0.0);
-    return full * std::max(_walking, kShortest);
-}
-
-/// The way since the last call along the heading, in the walker's own units. A jump is none, and
-/// takes the feet along.
-double WalkPlayer::measureWay(const glm::dmat4& place) {
-    glm::dvec3 way(0.0);
-    if (_isPlaced) way = -level(transformPoint(glm::inverse(place), glm::dvec3(_place[3])));
-    if (!_isPlaced || !(glm::length(way) <= kJump * _height)) {
-        for (Foot& foot : _feet) foot.isPlaced = false;
-        way = glm::dvec3(0.0);
-    }
-    _place = place;
-    _isPlaced = true;
-    const double length = glm::length(way);
-    return std::copysign(length, glm::dot(way, _forward) < -0.3 * length ? -1.0 : 1.0);
-}
-
-void WalkPlayer::measureSpeed(double way, double dt) {
-    _still = way != 0.0 ? 0.0 : _still + dt;
-    _newWay += std::abs(way);
-    if (way != 0.0) _direction = std::copysign(1.0, way);
-    if (!(dt > 0.0)) return;
-    _pace += (_newWay / dt - _pace) * (1.0 - std::exp(-dt / kSpeedTime));
-    _newWay = 0.0;
-}
-
-void WalkPlayer::chooseGait(double dt) {
-    const Gaits::Set& set = _gaits->get();
-    const double walk = set.walking.speed();
-    const bool isMoving = !isStopped();
-    double walking = 0.0, running = 0.0;
-    if (isMoving) walking = std::clamp(_pace / walk, kShortest, 1.0);
-    if (isMoving && set.running.clip) {
-        const double run = set.running.speed(), from = walk + 0.3 * (run - walk);
-        running = glm::smoothstep(from, from + 0.5 * (run - walk), _pace);
-    }
-    if (isMoving && _walking == 0.0) { // the right foot goes first: it swings past the left one
-        const Gaits::Contact& right = set.walking.contacts[1];
-        const double swing = right.begin - right.end;
-        _phase = right.end + 0.5 * (swing - std::floor(swing));
-    }
-    _walking = towards(_walking, walking, dt / kGaitTime);
-    _running = towards(_running, running, dt / kGaitTime);
-    if (!isMoving && _walking == 0.0) _pace = 0.0;
-}
-
-void WalkPlayer::advancePhase(double way) {
-    _phase += way / stride();
-    _phase -= std::floor(_phase);
-}
-
 void WalkPlayer::blendGaits() {
     const Gaits::Set& set = _gaits->get();
     static thread_local std::vector<JointSample> other;
@@ -158,21 +92,27 @@ void WalkPlayer::blendGaits() {
     localToModel(set.standing->joints(), _joints.data(), _whole);
 }
 
-void WalkPlayer::move(const glm::dmat4& place, double dt, const double* speed) {
-    const double way = measureWay(place);
-    measureSpeed(way, dt);
-    if (speed) {
-        _pace = std::abs(*speed);
-        if (*speed != 0.0) _direction = std::copysign(1.0, *speed);
-        _still = *speed != 0.0 ? 0.0 : std::max(_still, kStopTime);
-    }
-    chooseGait(dt);
-    const double phaseStep = _walking > 0.0 ? way / stride() : 0.0;
-    if (_walking > 0.0) advancePhase(way);
+void WalkPlayer::follow(const GaitState& gait, double dt, const Feet* feet) {
+    static_cast<GaitState&>(*this) = gait;
+    if (feet) _feet = *feet;
     blendGaits();
-    moveFeet(dt, phaseStep);
+    for (std::size_t side = 0; side < _feet.size(); ++side) {
+        Foot& foot = _feet[side];
+        if (_hasJumped) foot.isPlaced = false;
+        if (feet) stayAt(foot, soleOf(side, foot.pivot));
+    }
+    moveFeet(dt, _phaseStep);
     bendLegs();
     advance(dt);
+}
+
+void WalkPlayer::show(const std::vector<JointSample>& joints) {
+    _joints = joints;
+    localToModel(_gaits->get().standing->joints(), _joints.data(), _whole);
+}
+
+osg::Matrixd WalkPlayer::matrixOf(std::size_t joint) const {
+    return toMatrix(_whole[joint]) * _gaits->get().toWalker;
 }
 
 bool WalkPlayer::playClip(const SampledClip& clip, double fade) {
@@ -180,24 +120,6 @@ bool WalkPlayer::playClip(const SampledClip& clip, double fade) {
     Layer layer{&clip, 0.0, 1.0, false};
     layer.fadeOut = fade;
     return playOn(set.standing->joints()[set.upperBody].name, layer, fade);
-}
-
-void WalkPlayer::stand() {
-    _isPlaced = false;
-    _pace = _walking = _running = _phase = _standingTime = 0.0;
-    _still = kStopTime;
-    _feet = {};
-    blendGaits();
-}
-
-/// Longer without a move than a simulator's step.
-bool WalkPlayer::isStopped() const {
-    return _still >= kStopTime;
-}
-
-bool WalkPlayer::isStill() const {
-    return _walking == 0.0 && _pace == 0.0 && _newWay == 0.0 && !getLayer(kPartLayer).clip &&
-           _feet[0].step < 0.0 && _feet[1].step < 0.0;
 }
 
 } // namespace osgSkin

@@ -2,57 +2,23 @@
 #pragma once
 
 #include "clips/JointMaps.h"
+#include "walk/GaitState.h"
 
 #include <osgSkinMotion/ClipPlayer>
 #include <osgSkinMotion/Gaits>
 
-#include <osg/ref_ptr>
+#include <osg/BoundingBox>
+#include <osg/Matrixd>
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
 
 namespace osgSkin {
 
-/// At most a step nearer.
-inline double towards(double from, double to, double most) {
-    return from + std::clamp(to - from, -most, most);
-}
-
-/// Poses a figure from its displacement. Walker space, see Gaits.
-class WalkPlayer : public ClipPlayer {
+/// Poses a figure that goes as a GaitState says. Walker space, see Gaits.
+class WalkPlayer : public ClipPlayer, private GaitState {
 public:
-    explicit WalkPlayer(const osg::ref_ptr<const Gaits>& gaits);
-
-    /// Moves the figure on from where it was, and finds its joints; pose() shows them.
-    ///
-    /// \param place from walker space to the space of the ground; not singular
-    /// \param dt seconds since the last call
-    /// \param speed along the heading; null: as the places say
-    void move(const glm::dmat4& place, double dt, const double* speed = nullptr);
-
-    /// Stands where it is, as if it had never moved.
-    void stand();
-
-    /// Plays the standing clip.
-    void breathe(double dt) { _standingTime += dt; }
-
-    double phase() const { return _phase; }
-    double speed() const { return _direction * _pace; }
-
-    /// Plays a clip on the upper body once.
-    bool playClip(const SampledClip& clip, double fade);
-
-    /// Whether the walker is idle: a move() without displacement would change nothing.
-    bool isStill() const;
-
-protected:
-    const JointSample* posedJoints() const override { return _joints.data(); }
-
-private:
-    static constexpr double kGaitTime = 0.3; ///< seconds from standing to walking, and to running
-
     enum SolePoint : std::size_t { Heel, Ball, Tip };
 
     struct Foot {
@@ -69,13 +35,57 @@ private:
         double stepTurn = 0.0;
     };
 
-    double measureWay(const glm::dmat4& place);
-    void measureSpeed(double way, double dt);
-    void chooseGait(double dt);
-    void advancePhase(double way);
+    using Feet = std::array<Foot, 2>;
+
+    struct Stance {
+        std::vector<JointSample> joints;
+        Feet feet;
+    };
+
+    /// \param gaits must outlive it
+    explicit WalkPlayer(const Gaits& gaits);
+
+    /// Finds the joints where the figure goes so; pose() shows them. Feet that carried before keep
+    /// their place.
+    /// \param dt seconds since the last call
+    /// \param feet of another figure that goes so, which it takes over; null: its own
+    void follow(const GaitState& gait, double dt, const Feet* feet = nullptr);
+
+    Stance stance() const { return {_joints, _feet}; }
+
+    /// Takes joints that are known.
+    void show(const std::vector<JointSample>& joints);
+
+    /// Sets the skins' bounds in all poses, one for each; null: they are computed for each pose.
+    void setBounds(const std::vector<osg::BoundingBox>* bounds) { _bounds = bounds; }
+
+    double hipsHeight() const { return _height; } ///< above the floor
+    double meanLeg() const { return _leg; }       ///< from hip to ankle
+    double unit() const { return _unit; }         ///< walker units for one of rest space
+
+    /// The matrix of a joint that moves with others, from rest space to walker space.
+    osg::Matrixd matrixOf(std::size_t joint) const;
+
+    /// Plays a clip on the upper body once.
+    bool playClip(const SampledClip& clip, double fade);
+
+    /// Whether it plays a clip on the upper body.
+    bool isPlaying() const { return getLayer(kPartLayer).clip != nullptr; }
+
+    /// Whether it makes a step on the spot.
+    bool isStepping() const { return _feet[0].step >= 0.0 || _feet[1].step >= 0.0; }
+
+protected:
+    const JointSample* posedJoints() const override { return _joints.data(); }
+    const osg::BoundingBox* knownBounds(std::size_t skin) const override {
+        return _bounds && !isPlaying() ? &(*_bounds)[skin] : nullptr;
+    }
+
+private:
     void blendGaits();
     void moveFeet(double dt, double phaseStep);
     void plant(Foot& foot, std::size_t side);
+    void stayAt(Foot& foot, const glm::dvec3& pivot);
     void rollOnto(Foot& foot, std::size_t side, SolePoint point);
     void stepOnTheSpot(double dt);
     void bendLegs();
@@ -87,30 +97,17 @@ private:
     void rotateJoint(std::size_t joint, const glm::dquat& world);
     void findLeg(std::size_t first, std::size_t last);
     double legLength(const Gaits::Leg& leg) const;
-    double stride() const;
-    bool isStopped() const;
 
-    const osg::ref_ptr<const Gaits> _gaits;
     const glm::dmat4 _toWalker; ///< from rest space
     const glm::dquat _fromRest; ///< its rotation
-    const glm::dvec3 _forward;  ///< in which it looks
     double _unit = 1.0;         ///< walker units for one of rest space
     /// The height of the standing soles.
     double _floor = std::numeric_limits<double>::infinity();
-    std::array<double, 2> _radius{};  ///< of the balls of the feet: their heights above the soles
-    double _height = 0.0, _leg = 0.0; ///< of the hips above the floor; from hip to ankle
+    std::array<double, 2> _radius{}; ///< of the balls of the feet: their heights above the soles
+    double _leg = 0.0;               ///< from hip to ankle
+    const std::vector<osg::BoundingBox>* _bounds = nullptr;
 
-    glm::dmat4 _place{1.0};
-    bool _isPlaced = false;
-    double _pace = 0.0;      ///< along the ground, smoothed, whatever the direction
-    double _direction = 1.0; ///< -1 where it goes backwards
-    double _newWay = 0.0;    ///< since the last call with a time
-    double _still = 0.0;     ///< seconds since it last moved
-    double _walking = 0.0;   ///< 0 stands, 1 goes with full strides
-    double _running = 0.0;   ///< 0 walks, 1 runs
-    double _phase = 0.0;
-    double _standingTime = 0.0;
-    std::array<Foot, 2> _feet;
+    Feet _feet;
     std::vector<JointSample> _joints; ///< of the present pose
     std::vector<JointMap> _whole;     ///< the same, with the joints above
 };
