@@ -47,11 +47,15 @@ private:
 } // namespace
 
 osg::ref_ptr<osg::Camera> makeFrameTime(const Crowd& crowd, unsigned int threads) {
+    return makeTextLine(new ShowTimes(crowd, threads));
+}
+
+osg::ref_ptr<osg::Camera> makeTextLine(osg::DrawableUpdateCallback* update) {
     const osg::ref_ptr<osgText::Text> text = new osgText::Text;
     text->setDataVariance(osg::Object::DYNAMIC);
     text->setCharacterSize(20.0f);
     text->setPosition(osg::Vec3(12.0f, 12.0f, 0.0f));
-    text->setUpdateCallback(new ShowTimes(crowd, threads));
+    text->setUpdateCallback(update);
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     camera->setProjectionMatrixAsOrtho2D(0.0, 1000.0, 0.0, 800.0);
@@ -78,53 +82,51 @@ public:
     std::size_t count = 0;
 };
 
-/// A cull traversal of the whole scene, seen from above.
-class Cull {
-public:
-    explicit Cull(const osg::BoundingSphere& bound) {
-        const double r = 1.1 * static_cast<double>(bound.radius());
-        const osg::Vec3d centre = bound.center();
-        _view = new osg::RefMatrix(osg::Matrix::lookAt(centre + osg::Vec3d(0.0, -r, r), centre,
-                                                       osg::Vec3d(0.0, 0.0, 1.0)));
-        _projection = new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4.0 * r));
-    }
-    void run(osg::Node& scene, osg::FrameStamp* stamp) {
-        _graph->clean();
-        _stage->reset();
-        _visitor->reset();
-        _visitor->setFrameStamp(stamp);
-        _visitor->setTraversalNumber(stamp->getFrameNumber());
-        _visitor->setStateGraph(_graph);
-        _visitor->setRenderStage(_stage);
-        _visitor->pushViewport(_viewport);
-        _visitor->pushProjectionMatrix(_projection);
-        _visitor->pushModelViewMatrix(_view, osg::Transform::ABSOLUTE_RF);
-        scene.accept(*_visitor);
-        _visitor->popModelViewMatrix();
-        _visitor->popProjectionMatrix();
-        _visitor->popViewport();
-    }
+} // namespace
 
-private:
-    osg::ref_ptr<osgUtil::CullVisitor> _visitor = new osgUtil::CullVisitor;
-    osg::ref_ptr<osgUtil::StateGraph> _graph = new osgUtil::StateGraph;
-    osg::ref_ptr<osgUtil::RenderStage> _stage = new osgUtil::RenderStage;
-    osg::ref_ptr<osg::Viewport> _viewport = new osg::Viewport(0, 0, 1000, 800);
-    osg::ref_ptr<osg::RefMatrix> _view, _projection;
-};
+FrameCull::FrameCull(const osg::BoundingSphere& bound)
+    : _viewport(new osg::Viewport(0, 0, 1000, 800)) {
+    const double r = 1.1 * static_cast<double>(bound.radius());
+    const osg::Vec3d centre = bound.center();
+    _view = new osg::RefMatrix(
+        osg::Matrix::lookAt(centre + osg::Vec3d(0.0, -r, r), centre, osg::Vec3d(0.0, 0.0, 1.0)));
+    _projection = new osg::RefMatrix(osg::Matrix::ortho(-r, r, -r, r, 0.0, 4.0 * r));
+}
 
-double median(std::vector<double> values) {
+FrameCull::FrameCull(const example::View& view)
+    : _viewport(new osg::Viewport(0, 0, 1920, 1080)),
+      _view(new osg::RefMatrix(osg::Matrix::lookAt(view.eye, view.centre, view.up))),
+      _projection(
+          new osg::RefMatrix(osg::Matrix::perspective(view.fieldOfView, 16.0 / 9.0, 0.1, 2000.0))) {
+}
+
+void FrameCull::run(osg::Node& scene, osg::FrameStamp* stamp) {
+    _graph->clean();
+    _stage->reset();
+    _visitor->reset();
+    _visitor->setFrameStamp(stamp);
+    _visitor->setTraversalNumber(stamp->getFrameNumber());
+    _visitor->setStateGraph(_graph);
+    _visitor->setRenderStage(_stage);
+    _visitor->pushViewport(_viewport);
+    _visitor->pushProjectionMatrix(_projection);
+    _visitor->pushModelViewMatrix(_view, osg::Transform::ABSOLUTE_RF);
+    scene.accept(*_visitor);
+    _visitor->popModelViewMatrix();
+    _visitor->popProjectionMatrix();
+    _visitor->popViewport();
+}
+
+double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
 
-} // namespace
-
 void benchFrames(const Crowd& crowd, osg::Node* scene, unsigned int frames, unsigned int threads) {
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
-    Cull cull(scene->getBound());
+    FrameCull cull(scene->getBound());
     std::vector<double> whole, pose, deform, culled;
     std::size_t before = 0;
     constexpr unsigned int kFirst = 3; // warm-up frames, which still allocate
@@ -150,6 +152,6 @@ void benchFrames(const Crowd& crowd, osg::Node* scene, unsigned int frames, unsi
     const std::size_t deformed = CountDeformed(*scene).count - before;
     std::printf("%u frames on %u threads, medians: %.2f ms, of which poses and bounds %.2f, "
                 "deformation %.2f, cull traversal %.2f; %.0f skins deformed a frame\n",
-                frames, threads, median(whole), median(pose), median(deform), median(culled),
-                static_cast<double>(deformed) / frames);
+                frames, threads, medianOf(whole), medianOf(pose), medianOf(deform),
+                medianOf(culled), static_cast<double>(deformed) / frames);
 }

@@ -7,6 +7,7 @@
 #include "FrameRange.h"
 #include "Ground.h"
 #include "Snapshots.h"
+#include "Street.h"
 #include "WindowOptions.h"
 
 #include <osgGA/TrackballManipulator>
@@ -18,6 +19,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -28,6 +30,10 @@ template <typename AnyCrowd>
 example::View viewOf(const AnyCrowd& crowd) {
     const auto r = static_cast<double>(crowd.getRadius());
     return {{0.15 * r, -1.5 * r - 4.0, 0.45 * r + 1.5}, {0.0, -0.15 * r, 0.5}};
+}
+
+example::View viewOf(const Street& street) {
+    return street.view();
 }
 
 /// Where pictures go, and which ones.
@@ -83,6 +89,34 @@ int runOnCard(const std::vector<std::string>& files, std::size_t count, const Pi
     return 0;
 }
 
+/// The people of data/people.
+std::vector<std::string> savedPeople() {
+    std::vector<std::string> files;
+    const std::filesystem::path folder = example::dataFolder() + "/people";
+    for (const auto& file : std::filesystem::directory_iterator(folder))
+        if (file.path().extension() == ".skin") files.push_back(file.path().string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// Runs the street.
+int runStreet(const std::vector<std::string>& files, std::size_t count, unsigned int threads,
+              unsigned int timed, const Pictures& pictures, osgViewer::Viewer& viewer,
+              const example::WindowOptions& window) {
+    const osg::ref_ptr<Street> street = new Street(files, count, threads);
+    if (timed > 0) {
+        street->bench(timed);
+        return 0;
+    }
+    if (pictures.folder.empty()) {
+        street->getScene()->addChild(makeStreetTime(count));
+        return show(street->getScene(), street->view(), viewer, window);
+    }
+    takePictures(*street, street->getScene(), pictures, window, [](unsigned int) {});
+    std::printf("%zu frames in %s\n", pictures.frames.count(), pictures.folder.c_str());
+    return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -91,17 +125,22 @@ int main(int argc, char** argv) {
         "Characters are loaded with -O \"shapes=none normals=rotated\" unless -O says "
         "otherwise: more\nis not visible at a crowd's distance.\n" +
             std::string(example::kWindowHelp));
-    std::vector<std::string> files = {example::dataFolder() + "/thrower.skin"};
+    std::vector<std::string> files;
     std::string out, frames = "0:11";
     std::size_t count = 1000;
     unsigned int threads = 0;
     unsigned int timed = 0;
+    std::size_t people = 0;
     bool gpu = false;
     line.add("CHARACTER", files, std::string(example::kCharacterHelp) + "; several take turns");
     line.add("--count", count, "how many characters").range(1, 100000);
     line.add("--threads", threads, "most threads that pose and deform; 0: all processors");
     const auto onCard = line.add(
         "--gpu", gpu, "everything on the graphics card (OpenGL 3.3; 4.3 culls there, too)");
+    line.add("--street", people,
+             "so many people on pavements and crossings; CHARACTERs walk, or are saved walkers")
+        .range(1, 100000)
+        .excludes(onCard);
     const auto toFolder = line.add(
         "--out", out, "write crowd_00.png, ... to this folder instead of opening a window");
     line.add("--frames", frames, "frames to write, 60 a second: A, A:B or A:B:STEP")
@@ -117,6 +156,9 @@ int main(int argc, char** argv) {
         osgViewer::Viewer viewer(words);
         line.parse(argc, argv);
         const Pictures pictures{out, example::FrameRange::parse(frames)};
+        if (files.empty() && people > 0) files = savedPeople();
+        if (files.empty()) files = {example::dataFolder() + "/thrower.skin"};
+        if (people > 0) return runStreet(files, people, threads, timed, pictures, viewer, window);
         if (gpu) return runOnCard(files, count, pictures, viewer, window);
         std::vector<CrowdCharacter> characters;
         characters.reserve(files.size());
