@@ -12,11 +12,11 @@ fi
 bin=$build/bin out=$PWD/examples/pictures/gallery
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$out" "$work"/{throw,crowd,face,fit,osgskin,linear,dual,muscles}
+mkdir -p "$out" "$work"/{throw,crowd,street,face,fit,osgskin,linear,dual,muscles}
 
 # moving NAME DELAY PICTURE...: a loop of pictures, DELAY hundredths of a second each.
 moving() {
-  convert -delay "$2" -loop 0 "${@:3}" -resize 240x180 -quality 75 "$out/$1.webp"
+  convert -delay "$2" -loop 0 "${@:3}" -resize "${SIZE:-240x180}" -quality 75 "$out/$1.webp"
   echo "examples/pictures/gallery/$1.webp: $(stat -c %s "$out/$1.webp") bytes"
 }
 # A part of each picture in a folder: cut FOLDER WIDTHxHEIGHT+X+Y
@@ -42,6 +42,9 @@ crowd() {
 }
 crowd crowd 300
 crowd crowd10000 10000
+
+"$bin/osgskincrowd" --street 2000 --out "$work/street" --frames 60:117:6 --window 0 0 640 360 >"$work/log.txt"
+SIZE=640x360 moving street 10 "$work"/street/*.png
 
 # Both forearms bend by 110 degrees and straighten again.
 python3 - data/throw.bvh "$work/flex.bvh" <<'PYTHON'

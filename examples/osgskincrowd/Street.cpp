@@ -27,10 +27,11 @@
 
 namespace {
 
-constexpr double kBlock = 30.0;   ///< m, between the middles of a block's pavements
-constexpr double kRoad = 12.0;    ///< m, from the middle of a pavement to that over the street
-constexpr double kPavement = 2.0; ///< m, half its width
-constexpr double kKerb = 0.12;    ///< m
+constexpr double kBlock = 30.0;      ///< m, between the middles of a block's pavements
+constexpr double kRoad = 12.0;       ///< m, from the middle of a pavement to that over the street
+constexpr double kPavement = 2.0;    ///< m, half its width
+constexpr double kKerb = 0.12;       ///< m
+constexpr double kStep = 1.0 / 60.0; ///< s
 constexpr std::size_t kPeoplePerBlock = 60;
 
 class MovePeople : public osg::NodeCallback {
@@ -110,7 +111,7 @@ Street::Street(const std::vector<std::string>& files, std::size_t count, unsigne
     _scene->addChild(sun);
     _scene->addChild(_group);
     _scene->setUpdateCallback(new MovePeople(*this));
-    move(0.0);
+    walkTo(0.0); // all have found their gait
 }
 
 Street::~Street() {
@@ -184,9 +185,23 @@ void Street::addPeople(const std::vector<std::string>& files, std::size_t count)
     }
 }
 
+void Street::walkTo(double time) {
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    osgUtil::UpdateVisitor update;
+    update.setFrameStamp(stamp);
+    while (_time + kStep < time) {
+        move(_time + kStep);
+        stamp->setFrameNumber(++_step);
+        stamp->setSimulationTime(_time);
+        update.setTraversalNumber(_step);
+        _group->accept(update);
+    }
+    move(time);
+}
+
 void Street::move(double time) {
-    const double dt = _time < 0.0 ? 0.0 : time - _time;
-    if (_time >= 0.0 && dt <= 0.0) return;
+    const double dt = time - _time;
+    if (dt <= 0.0) return;
     _time = time;
     for (Person& person : _people) {
         person.way += person.speed * dt;

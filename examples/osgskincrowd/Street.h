@@ -38,6 +38,9 @@ public:
     /// \param time simulation time in seconds; does not decrease
     void move(double time);
 
+    /// Moves them and updates their poses in steps of 60 Hz: a long way at once is no walk.
+    void walkTo(double time);
+
     /// Runs frames at 60 Hz without a window, and prints the times of update and cull traversals.
     void bench(unsigned int frames);
 
@@ -69,7 +72,8 @@ private:
     std::vector<Person> _people;
     std::mt19937 _random{7};
     int _blocks = 2; ///< in each direction
-    double _time = -1.0;
+    double _time = -1.5;
+    unsigned int _step = 1U << 30; ///< frame number, of none of a viewer's
 };
 
 /// A line of text at the lower edge of the window: frame time and number of people, averaged over

@@ -112,7 +112,11 @@ int runStreet(const std::vector<std::string>& files, std::size_t count, unsigned
         street->getScene()->addChild(makeStreetTime(count));
         return show(street->getScene(), street->view(), viewer, window);
     }
-    takePictures(*street, street->getScene(), pictures, window, [](unsigned int) {});
+    const example::FrameRange& frames = pictures.frames;
+    const auto walkTo = [&](std::size_t frame) { street->walkTo((double(frame) - 0.5) / 60.0); };
+    walkTo(frames.first);
+    takePictures(*street, street->getScene(), pictures, window,
+                 [&](unsigned int taken) { walkTo(frames.first + taken * frames.step); });
     std::printf("%zu frames in %s\n", pictures.frames.count(), pictures.folder.c_str());
     return 0;
 }
