@@ -255,10 +255,9 @@ SampledMotion chooseMotion(Character& character, const Arguments& arguments) {
         throw UsageError{arguments.character + " has no motion, so there are no frames"};
     if (arguments.motion.empty()) return motions.front();
     std::vector<std::string> known;
-    for (const SampledMotion& motion : motions) {
-        if (motion.name == arguments.motion) return motion;
-        known.push_back(motion.name);
-    }
+    for (const SampledMotion& motion : motions) known.push_back(motion.name);
+    const std::vector<std::size_t> meant = osgSkin::clipsMeant(arguments.motion, known);
+    if (meant.size() == 1) return motions[meant.front()];
     throw UsageError{"--motion: found \"" + arguments.motion + '"' +
                      osgSkin::expectedNames(arguments.motion, known)};
 }

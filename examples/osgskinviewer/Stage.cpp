@@ -249,10 +249,9 @@ void Stage::setMotion(std::size_t index) {
 
 void Stage::setMotion(const std::string& name) {
     std::vector<std::string> known;
-    for (std::size_t i = 0; i < motionCount(); ++i) {
-        known.push_back(_figure.motion(i).getName());
-        if (known.back() == name) return setMotion(i);
-    }
+    for (std::size_t i = 0; i < motionCount(); ++i) known.push_back(_figure.motion(i).getName());
+    const std::vector<std::size_t> meant = osgSkin::clipsMeant(name, known);
+    if (meant.size() == 1) return setMotion(meant.front());
     throw osgSkin::Error(_file + ": no motion is called \"" + name + '"' +
                          osgSkin::expectedNames(name, known));
 }

@@ -54,6 +54,16 @@ TEST(NearestName, AcceptsNamesOfAnyLength) {
     EXPECT_EQ(nearestName("shape", {longName, "shapes"}), "shapes");
 }
 
+TEST(ClipsMeant, AreThoseBehindABarWhereNoneHasTheName) {
+    using Found = std::vector<std::size_t>;
+    const std::vector<std::string> known = {"Rig|Walk", "Walk", "A|Run", "B|Run", "C|Sit_C"};
+    EXPECT_EQ(osgSkin::clipsMeant("Walk", known), Found{1});
+    EXPECT_EQ(osgSkin::clipsMeant("Rig|Walk", known), Found{0});
+    EXPECT_EQ(osgSkin::clipsMeant("Run", known), (Found{2, 3}));
+    EXPECT_EQ(osgSkin::clipsMeant("Sit", known), Found{4});
+    EXPECT_EQ(osgSkin::clipsMeant("Rig", known), Found{});
+}
+
 TEST(ExpectedNames, ListsKnownNames) {
     EXPECT_EQ(expectedNames("rnu", {"walk", "run"}),
               R"(, expected one of "walk", "run"; did you mean "run"?)");

@@ -44,6 +44,20 @@ std::size_t editsBetween(const std::string& a, const std::string& b) {
 
 } // namespace
 
+std::vector<std::size_t> clipsMeant(const std::string& word,
+                                    const std::vector<std::string>& known) {
+    const auto exact = std::find(known.begin(), known.end(), word);
+    if (exact != known.end()) return {static_cast<std::size_t>(exact - known.begin())};
+    std::vector<std::size_t> result;
+    for (std::size_t n = 0; n < known.size(); ++n) {
+        const std::size_t bar = known[n].rfind('|');
+        if (bar == std::string::npos) continue;
+        const std::string clip = known[n].substr(bar + 1);
+        if (clip == word || clip == word + '_' + known[n].substr(0, bar)) result.push_back(n);
+    }
+    return result;
+}
+
 std::string nearestName(const std::string& word, const std::vector<std::string>& known) {
     if (word.empty() || word.size() > kMaxLength) return {};
     const std::string wanted = lowerCase(word);

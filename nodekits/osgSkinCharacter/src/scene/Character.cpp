@@ -86,15 +86,15 @@ osg::Vec3d Character::restPosition(const std::string& role) const {
 
 void Character::play(const std::string& motion) {
     std::vector<std::string> known;
-    for (const CharacterMotion& each : motions) {
-        known.push_back(each.name());
-        if (each.name() != motion) continue;
+    for (const CharacterMotion& each : motions) known.push_back(each.name());
+    const std::vector<std::size_t> meant = clipsMeant(motion, known);
+    if (meant.size() == 1) {
         if (ClipPlayer* const player = find<ClipPlayer>(*root)) {
-            player->play({player->clip(motion)}, 0.0);
+            player->play({player->clip(known[meant.front()])}, 0.0);
             return;
         }
         manager->stopAll();
-        manager->playAnimation(each.animation);
+        manager->playAnimation(motions[meant.front()].animation);
         return;
     }
     throw Error(

@@ -6,7 +6,6 @@
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 
-#include <algorithm>
 #include <charconv>
 #include <map>
 #include <set>
@@ -28,15 +27,7 @@ std::vector<std::string> clipNames(const SourceScene& scene) {
 
 std::size_t findClip(const std::vector<std::string>& names, const std::string& wanted,
                      const std::string& path) {
-    const auto exact = std::find(names.begin(), names.end(), wanted);
-    if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
-    std::vector<std::size_t> found;
-    for (std::size_t n = 0; n < names.size(); ++n) {
-        const std::size_t bar = names[n].rfind('|');
-        if (bar == std::string::npos) continue;
-        const std::string clip = names[n].substr(bar + 1);
-        if (clip == wanted || clip == wanted + '_' + names[n].substr(0, bar)) found.push_back(n);
-    }
+    const std::vector<std::size_t> found = clipsMeant(wanted, names);
     if (found.size() == 1) return found.front();
     std::size_t number = 0;
     const char* const end = wanted.data() + wanted.size();

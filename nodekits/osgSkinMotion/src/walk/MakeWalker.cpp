@@ -62,12 +62,6 @@ private:
 
     const SampledClip* clip(const std::string& name) { return _character->clip(name).get(); }
 
-    bool has(const std::string& name) const {
-        const osgAnimation::AnimationList& all = _character->animations();
-        return std::any_of(all.begin(), all.end(),
-                           [&](const auto& animation) { return animation->getName() == name; });
-    }
-
     /// A role's first joint.
     std::size_t jointOf(const std::string& role) const {
         const int joint = _roles.joint(role);
@@ -105,7 +99,8 @@ std::string WalkerMaker::named(const std::string& asked, const std::vector<std::
     std::vector<std::string> names;
     for (const auto& animation : _character->animations()) names.push_back(animation->getName());
     if (!asked.empty()) {
-        if (has(asked)) return asked;
+        const std::vector<std::size_t> meant = clipsMeant(asked, names);
+        if (meant.size() == 1) return names[meant.front()];
         failWalker("no clip \"" + asked + "\"" + expectedNames(asked, names));
     }
     for (const std::string& word : words) {
