@@ -288,7 +288,6 @@ void DeformableSkin::setDrawBackend(DrawBackend* drawer) {
     uploadAgain();
     _backend = drawer;
     if (!_backend || !_model) return;
-    makeBuffers();
     _backend->skinChanged(*this);
     _backend->poseChanged(*this);
 }

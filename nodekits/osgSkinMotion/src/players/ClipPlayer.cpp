@@ -124,9 +124,11 @@ void ClipPlayer::setLayer(std::size_t index, const Layer& layer) {
             if (getLayer(i).clip && getLayer(i).clip->find(joint) >= 0) return true;
         return false;
     };
+    if (!layer.clip || std::all_of(layer.joints.begin(), layer.joints.end(), isKnown))
+        return _layers->set(index, layer); // allocates nothing
     Layer named = layer;
     for (std::string& joint : named.joints)
-        if (layer.clip && !isKnown(joint)) joint = jointsBelow(*layer.clip, joint).front();
+        if (!isKnown(joint)) joint = jointsBelow(*layer.clip, joint).front();
     _layers->set(index, named);
 }
 

@@ -70,7 +70,7 @@ void shareRoles(JointPairs& map, const RestSkeleton& rig, const RestSkeleton& mo
                 const ByName& motionJoints) {
     if (!map.rig.known()) return;
     JointRoles shared;
-    shared.family = map.rig.family;
+    shared.family = map.motion.known() ? map.motion.family : map.rig.family;
     shared.roles.resize(motion.joints.size());
     shared.parts.resize(motion.joints.size());
     std::vector<bool> isNamesake(motion.joints.size(), false);
@@ -89,6 +89,7 @@ void shareRoles(JointPairs& map, const RestSkeleton& rig, const RestSkeleton& mo
         if (!shared.roles[m].empty()) shared.joints[shared.roles[m]].push_back(found->second);
     }
     const auto ofNamesakes = shared.joints;
+    if (ofNamesakes.empty()) return;
     for (std::size_t m = 0; m < motion.joints.size(); ++m) { // the others keep roles that are left
         const std::string& role = map.motion.roles[m];
         if (isNamesake[m] || role.empty() || ofNamesakes.count(role) != 0) continue;
