@@ -85,7 +85,7 @@ struct Person {
     std::map<std::string, dvec3> colours;
 };
 
-/// What people wear.
+/// Chooses clothes, hair and a bag.
 void dress(Person& person, Draws& draw, bool isWoman, bool isChild, bool isOld) {
     const dvec3 skin = draw.of(kSkins), hair = isOld ? draw.of(kGreys) : draw.of(kHairs);
     const dvec3 cloth = isChild             ? draw.of(kBright)

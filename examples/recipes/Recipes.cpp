@@ -84,7 +84,7 @@ Scene climb(File file, double size) {
     return scene;
 }
 
-/// What a stranger's view and floor depend on.
+/// A figure's size and head, to which the view and the floor are fitted.
 struct Figure {
     double size = 1.0;                 ///< in heights of the samples
     osg::Vec3d head{0.0, 0.015, 1.67}; ///< its middle

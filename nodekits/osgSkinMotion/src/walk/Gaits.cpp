@@ -10,7 +10,7 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kLeastStride = 1e-9, kLargestStride = 1e12;
+constexpr double kMinStride = 1e-9, kMaxStride = 1e12;
 
 [[noreturn]] void failGaits(const std::string& what) {
     throw Error("gaits: " + what);
@@ -27,7 +27,7 @@ void requireUsable(const Gaits::Gait& gait, const SampledClip& standing) {
     if (!haveSameJoints(*gait.clip, standing))
         failGaits("clip \"" + gait.clip->name() + "\" has other joints than \"" + standing.name() +
                   "\"");
-    if (!(gait.stride >= kLeastStride && gait.stride <= kLargestStride))
+    if (!(gait.stride >= kMinStride && gait.stride <= kMaxStride))
         failGaits("the stride of clip \"" + gait.clip->name() + "\" is " +
                   std::to_string(gait.stride) + ", expected 1e-9 to 1e12");
     for (const Gaits::Contact& contact : gait.contacts)
