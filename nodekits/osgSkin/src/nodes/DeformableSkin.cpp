@@ -154,7 +154,7 @@ DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& c
         _extras->weights = other._extras->weights;
         _extras->isMorphed = other._extras->isMorphed;
     }
-    makeBuffers();
+    forgetBuffers();
     if (_backend && _model) _backend->skinChanged(*this);
     poseChanged();
 }
@@ -184,7 +184,7 @@ void DeformableSkin::setSkin(osg::Geometry* rest, const osg::ref_ptr<const SkinM
     setTangents(tangents);
     _pose = Pose(_model->joints(), _model->inputs().size());
     setStateSet(rest->getStateSet());
-    makeBuffers();
+    forgetBuffers();
     if (_backend) _backend->skinChanged(*this);
     poseChanged();
     for (std::size_t i = 0; i < inputs.size(); ++i) setActivation(inputs[i], before.input(i));
@@ -217,7 +217,7 @@ void DeformableSkin::setTangentAttribute(int index) {
     if (_model) setTangents(tangentsOf(*_rest, index, *_model));
     _tangentAttribute = index;
     if (!_model) return;
-    makeBuffers();
+    forgetBuffers();
     if (_backend) _backend->skinChanged(*this);
     poseChanged();
 }
@@ -255,8 +255,8 @@ osg::ref_ptr<osg::Geometry> DeformableSkin::makeDrawnGeometry() const {
 }
 
 /// Forgets the buffers but for the bounds. They are made when they are needed (fill()): characters
-/// that nobody has seen yet, or that a backend draws, own no vertices.
-void DeformableSkin::makeBuffers() {
+/// that nobody has seen yet, or that a backend has always drawn, own no vertices.
+void DeformableSkin::forgetBuffers() {
     // The buffers' own GL objects go with them. Textures, programs and arrays may be shared, and a
     // draw thread may be using them: nothing is released here.
     const osg::ref_ptr<osg::Geometry> before = _buffers[0];
