@@ -92,7 +92,10 @@ private:
 /// The skins and the callbacks below a node.
 class FindParts : public osg::NodeVisitor {
 public:
-    FindParts() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    /// A collector: for other visitors walkers make poses of their own.
+    FindParts() : osg::NodeVisitor(COLLECT_OCCLUDER_VISITOR, TRAVERSE_ALL_CHILDREN) {
+        setNodeMaskOverride(~0u);
+    }
     void apply(osg::Node& node) override {
         updatesItself = updatesItself || osgSkin::updatesItself(node);
         for (const osg::Callback* c = node.getUpdateCallback(); c; c = c->getNestedCallback())
