@@ -328,6 +328,32 @@ JointRoles completed(const JointRoles& own, const std::vector<int>& other,
     return result;
 }
 
+/// The turn between two files' up axes, y and z, after which the motion's bones lie just as those
+/// of the rig that they drive. For skeletons without a human's joints.
+glm::dquat turnOfUpAxis(const RestSkeleton& rig, const RestSkeleton& motion,
+                        const JointPairs& map) {
+    const glm::dvec3 x(1.0, 0.0, 0.0);
+    const glm::dquat turns[] = {{1.0, 0.0, 0.0, 0.0},
+                                glm::angleAxis(-glm::half_pi<double>(), x),
+                                glm::angleAxis(glm::half_pi<double>(), x)};
+    double alike[3] = {}, most = 0.0;
+    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+        const int above = rig.joints[j].parent, to = map.motionJoint[j];
+        const int from = above < 0 ? -1 : map.motionJoint[static_cast<std::size_t>(above)];
+        if (from < 0 || to < 0) continue;
+        const glm::dvec3 ours =
+            rig.joints[j].centre - rig.joints[static_cast<std::size_t>(above)].centre;
+        const glm::dvec3 theirs = motion.joints[static_cast<std::size_t>(to)].centre -
+                                  motion.joints[static_cast<std::size_t>(from)].centre;
+        for (int turn = 0; turn < 3; ++turn) alike[turn] += glm::dot(ours, turns[turn] * theirs);
+        most += glm::length(ours) * glm::length(theirs);
+    }
+    // Bones that another zero pose bends are no reason to lay a body down.
+    for (int turn = 1; turn < 3; ++turn)
+        if (alike[0] < 0.5 * most && alike[turn] > 0.95 * most) return turns[turn];
+    return turns[0];
+}
+
 } // namespace
 
 JointRoles motionRolesOf(const JointPairs& map) {
@@ -345,7 +371,8 @@ UprightFrames findUprightFrames(const RestSkeleton& rig, const RestSkeleton& mot
     const BodyDirections ours(rigRoles, centresOf(rig)), theirs(motionRoles, centresOf(motion));
     UprightFrames result;
     result.rigUpright = uprightRotation(ours);
-    result.motionUpright = uprightRotation(theirs);
+    result.motionUpright = ours.up(2) == 0 && theirs.up(2) == 0 ? turnOfUpAxis(rig, motion, map)
+                                                                : uprightRotation(theirs);
     const std::optional<double> to = heading(ours, result.rigUpright);
     const std::optional<double> from = heading(theirs, result.motionUpright);
     if (!to || !from) return result;
