@@ -108,7 +108,8 @@ Figure measure(File file) {
 /// The recipe's view, for a figure.
 example::View viewOf(const Recipe& recipe, const Figure& figure) {
     example::View view = recipe.view;
-    const Vec3d shift = recipe.isOfHead ? figure.head - Figure().head * figure.size : Vec3d();
+    const Vec3d shift =
+        (recipe.needs & kHead) != 0 ? figure.head - Figure().head * figure.size : Vec3d();
     view.up = osg::Matrixd::transform3x3(view.up, recipe.place);
     view.eye = (view.eye * figure.size + shift) * recipe.place;
     view.centre = (view.centre * figure.size + shift) * recipe.place;
@@ -127,18 +128,8 @@ const std::vector<Recipe>& recipes() {
          2.4,
          {Vec3d(-6.2, -8.0, 3.1), Vec3d(0, -3.0, 1.2)},
          Floor::Plain,
-         false,
-         {},
-         true},
-        {"fadeClips",
-         ofFile<fadeClips>,
-         "walker.skin",
-         0.4,
-         kFigure,
-         Floor::Shadowed,
-         false,
-         {},
-         true},
+         kFirstFrame},
+        {"fadeClips", ofFile<fadeClips>, "walker.skin", 0.4, kFigure, Floor::Shadowed, kFirstFrame},
         {"driveBone", ofFile<driveBone>, "walker.skin", 0.5, kFigure},
         {"lookAtTarget",
          ofFile<lookAtTarget>,
@@ -146,10 +137,7 @@ const std::vector<Recipe>& recipes() {
          0.3,
          {Vec3d(-0.2, -2.9, 1.5), Vec3d(0.2, 0, 1.3)},
          Floor::Shadowed,
-         false,
-         {},
-         false,
-         true},
+         kHead},
         {"reachTarget",
          ofFile<reachTarget>,
          "walker.skin",
@@ -161,20 +149,10 @@ const std::vector<Recipe>& recipes() {
          0.2,
          {Vec3d(-1.9, 1.6, 1.75), Vec3d(0, 0.1, 1.45)},
          Floor::Shadowed,
-         false,
-         {},
-         true,
-         true},
+         kFirstFrame | kHead},
 #ifdef OSGSKIN_LIBLO
-        {"receivePoses",
-         ofFile<perform>,
-         "walker.skin",
-         0.4,
-         kFigure,
-         Floor::Shadowed,
-         false,
-         {},
-         true},
+        {"receivePoses", ofFile<perform>, "walker.skin", 0.4, kFigure, Floor::Shadowed,
+         kFirstFrame},
 #endif
 #ifdef OSGSKIN_BULLET
         {"fallDown",
@@ -183,9 +161,7 @@ const std::vector<Recipe>& recipes() {
          1.1,
          {Vec3d(-5.2, -4.6, 2.6), Vec3d(0, -1.2, 0.95)},
          Floor::Plain,
-         false,
-         {},
-         true},
+         kFirstFrame},
 #endif
         {"attachSword",
          ofFile<attachSword>,
@@ -209,17 +185,14 @@ const std::vector<Recipe>& recipes() {
          0.25,
          {Vec3d(-0.4, -3.4, 1.6), Vec3d(0.3, 0, 1.2)},
          Floor::Plain,
-         true},
+         kWireframe},
         {"makeFace",
          ofFile<makeFace>,
          "face.osgb",
          1.5,
          {Vec3d(-0.28, -0.75, 1.68), Vec3d(0, 0, 1.655)},
          Floor::Shadowed,
-         false,
-         {},
-         false,
-         true},
+         kHead},
         {"makeCrowd",
          [](File file, double) { return makeCrowd(*osgSkin::loadCharacter(file).root); },
          "walker.skin",
@@ -232,9 +205,7 @@ const std::vector<Recipe>& recipes() {
          0.4,
          {Vec3d(-6.5, -6.5, 2.4), Vec3d(0.4, 0.4, 0.7)},
          Floor::Plain,
-         false,
-         {},
-         true},
+         kFirstFrame},
         {"deformOnCard", ofFile<deformOnCard>, "walker.skin", 0.25, kFigure, Floor::Plain},
         {"ownShader",
          ofFile<ownShader>,
@@ -253,7 +224,7 @@ const std::vector<Recipe>& recipes() {
          0.5,
          {Vec3d(-0.8, -4.6, 2.4), Vec3d(0, 0, 0.8)},
          Floor::Own,
-         false,
+         kNothing,
          onEarth()},
     };
     return all;
@@ -264,7 +235,7 @@ Stage stageOf(const Recipe& recipe, const std::string& file, const std::string& 
     const osg::ref_ptr<osg::Node> scene =
         recipe.make(file.empty() ? samples + "/" + recipe.sample : file, figure.size);
     Stage stage{scene, viewOf(recipe, figure)};
-    if (recipe.isWireframe)
+    if ((recipe.needs & kWireframe) != 0)
         scene->getOrCreateStateSet()->setAttribute(
             new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
     if (recipe.floor == Floor::Own) return stage;
@@ -282,7 +253,7 @@ osg::ref_ptr<osg::Image> pictureOf(const Recipe& recipe, const std::string& file
                                    const std::string& samples) {
     const Stage stage = stageOf(recipe, file, samples);
     example::Snapshots snapshots(stage.scene, stage.view, 320, 240);
-    if (recipe.fromStart) snapshots.take(0.0);
+    if ((recipe.needs & kFirstFrame) != 0) snapshots.take(0.0);
     const osg::ref_ptr<osg::Image> picture = snapshots.take(recipe.time);
     // Fewer shades, for small files.
     for (unsigned int i = 0; i < picture->getTotalSizeInBytes(); ++i)

@@ -12,6 +12,14 @@
 /// The ground of a recipe's picture.
 enum class Floor { Own, Plain, Shadowed };
 
+/// What else a recipe's picture needs; a sum of these.
+enum Needs : unsigned {
+    kNothing = 0,
+    kWireframe = 1,
+    kFirstFrame = 2, ///< at time 0, before the picture's: something fades
+    kHead = 4,       ///< the view moves with the character's head
+};
+
 /// A recipe, and how it is shown.
 struct Recipe {
     const char* name; ///< of its function and its file
@@ -21,10 +29,8 @@ struct Recipe {
     double time;        ///< of its picture, seconds
     example::View view; ///< of its picture, in metres above `place`, for the samples' size
     Floor floor = Floor::Shadowed;
-    bool isWireframe = false;
-    osg::Matrixd place{};   ///< from the view to the world
-    bool fromStart = false; ///< a frame at time 0 comes before the picture's: something fades
-    bool isOfHead = false;  ///< the view moves with the character's head
+    unsigned needs = kNothing;
+    osg::Matrixd place{}; ///< from the view to the world
 };
 
 /// All recipes, in the order of the page.
