@@ -31,12 +31,24 @@ bool checkTargets(const MorphTargets& targets) {
     return !targets.targets().empty();
 }
 
-/// A target's kinds of offsets, as bits in the order of kOffsets.
+/// A target's kinds of offsets, as bits in the order of kOffsets; then its rules, which older
+/// readers leave out.
 unsigned int kindsOf(const MorphTarget& target) {
     unsigned int kinds = 1u; // positions
     if (!target.normals.empty()) kinds |= 2u;
     if (!target.tangents.empty()) kinds |= 4u;
-    return kinds;
+    const osgSkin::ExpressionRules& rules = target.rules;
+    if (rules.isBinary) kinds |= 8u;
+    return kinds | unsigned(rules.part) << 4 | unsigned(rules.blink) << 6 |
+           unsigned(rules.lookAt) << 8 | unsigned(rules.mouth) << 10;
+}
+
+osgSkin::ExpressionRules rulesOf(unsigned int kinds) {
+    using Override = osgSkin::ExpressionRules::Override;
+    const auto two = [kinds](unsigned int shift) { return kinds >> shift & 3u; };
+    const auto override = [&](unsigned int shift) { return Override(two(shift) % 3); };
+    return {osgSkin::ExpressionRules::Part(two(4)), (kinds & 8u) != 0, override(6), override(8),
+            override(10)};
 }
 
 /// Each vertex comes with its number plus 1; 0 ends a target. There is no count of vertices,
@@ -65,6 +77,7 @@ bool writeTargets(osgDB::OutputStream& os, const MorphTargets& targets) {
 }
 
 bool readTarget(osgDB::InputStream& is, unsigned int kinds, MorphTarget& target) {
+    target.rules = rulesOf(kinds);
     is >> target.initial;
     is.readWrappedString(target.name);
     while (!is.getException()) {

@@ -364,28 +364,6 @@ TEST(VrmExpressions, BecomeMorphTargets) {
     }
 }
 
-TEST(VrmExpressions, NoteWhatIsNotSupported) {
-    Face face;
-    const json bind = {{"node", face.meshNode}, {"index", 0}, {"weight", 1.0}};
-    json& preset = face.json["extensions"]["VRMC_vrm"]["expressions"]["preset"];
-    for (const char* name : {"happy", "blink", "aa", "ih"})
-        preset[name] = {{"morphTargetBinds", {bind}}, {"overrideMouth", "none"}};
-    preset["happy"]["isBinary"] = true;
-    preset["aa"]["overrideBlink"] = "block";
-    face.bend();
-    test::Notices notices;
-    osgSkin::importMesh(face.save("rules.vrm"));
-    EXPECT_TRUE(notices.say("2 expressions are binary or override blinking")) << notices.text();
-    face.json["extensions"]["VRMC_vrm_animation"] = {
-        {"humanoid", {{"humanBones", {{"hips", {{"node", face.joints[0]}}}}}}},
-        {"expressions", {{"preset", {{"happy", {{"node", 1}}}, {"aa", {{"node", 2}}}}}}},
-        {"lookAt", {{"node", 1}}}};
-    osgSkin::importMotion(face.save("rules.vrma"));
-    EXPECT_TRUE(notices.say("a VRM animation of 2 expressions and of where the eyes look, which "
-                            "are not supported: it moves joints alone"))
-        << notices.text();
-}
-
 TEST(VrmExpressions, IgnoresInvalidParts) {
     Face face;
     face.json["extensions"]["VRMC_vrm"]["expressions"]["preset"]["happy"]["morphTargetBinds"] = {
@@ -468,11 +446,18 @@ TEST(GltfMorphs, FirstMeshWinsForDifferentWeights) {
         << notices.text();
 }
 
-TEST(GltfMorphs, MotionNeedsJoints) {
+TEST(GltfMorphs, MotionMayMoveAFaceAlone) {
     Face face;
     face.animate("talk", face.meshNode, "weights", {0.0, 1.0}, {0, 0, 1, 1});
-    const std::string path = face.save("talk_only.gltf");
-    expectError([&] { osgSkin::importMotion(path); }, "clip \"talk\" moves no joint");
+    const osgSkin::Motion motion = osgSkin::importMotion(face.save("talk_only.gltf"));
+    ASSERT_EQ(motion.frames, 31u);
+    ASSERT_EQ(motion.morphs.size(), 2u);
+    for (const auto& [morph, weights] : motion.morphs) {
+        ASSERT_EQ(weights.size(), 31u) << morph;
+        EXPECT_EQ(weights.front(), 0.0f) << morph;
+        EXPECT_NEAR(double(weights[15]), 0.5, 1e-6) << morph;
+        EXPECT_EQ(weights.back(), 1.0f) << morph;
+    }
 }
 
 /// A square that follows one joint, with two shapes and a clip of one of them.

@@ -79,6 +79,33 @@ std::vector<float> MorphTargets::initialWeights() const {
     return result;
 }
 
+void MorphTargets::applyRules(const std::vector<float>& weights, std::vector<float>& shown) const {
+    using Override = ExpressionRules::Override;
+    using Part = ExpressionRules::Part;
+    shown = weights;
+    float blink = 1.0f, lookAt = 1.0f, mouth = 1.0f;
+    const auto override = [](Override kind, float weight, float& left) {
+        if (kind == Override::Blend) left -= weight;
+        if (kind == Override::Block && weight > 0.0f) left = 0.0f;
+        left = std::max(left, 0.0f);
+    };
+    for (std::size_t i = 0; i < _targets.size(); ++i) {
+        const ExpressionRules& rules = _targets[i].rules;
+        if (rules.isBinary) shown[i] = shown[i] > 0.5f ? 1.0f : 0.0f;
+        override(rules.blink, shown[i], blink);
+        override(rules.lookAt, shown[i], lookAt);
+        override(rules.mouth, shown[i], mouth);
+    }
+    for (std::size_t i = 0; i < _targets.size(); ++i) {
+        const ExpressionRules& rules = _targets[i].rules;
+        if (rules.part == Part::None) continue;
+        const float left = rules.part == Part::Blink    ? blink
+                           : rules.part == Part::LookAt ? lookAt
+                                                        : mouth;
+        if (left < 1.0f) shown[i] *= rules.isBinary ? 0.0f : left;
+    }
+}
+
 double MorphTargets::reach(const std::vector<float>& weights) const {
     double result = 0.0;
     for (std::size_t i = 0; i < _targets.size(); ++i)

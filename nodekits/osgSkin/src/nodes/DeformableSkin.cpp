@@ -152,6 +152,7 @@ DeformableSkin::DeformableSkin(const DeformableSkin& other, const osg::CopyOp& c
         _extras->tangents = other._extras->tangents;
         _extras->targets = other._extras->targets;
         _extras->weights = other._extras->weights;
+        _extras->shown = other._extras->shown;
         _extras->isMorphed = other._extras->isMorphed;
     }
     forgetBuffers();
@@ -347,6 +348,7 @@ void DeformableSkin::setMorphTargets(const osg::ref_ptr<const MorphTargets>& tar
     if (!_extras) _extras = std::make_unique<Extras>();
     _extras->targets = targets;
     _extras->weights = targets ? targets->initialWeights() : std::vector<float>();
+    _extras->shown = _extras->weights;
     _extras->isMorphed = false;
     _extras->rest.reset();
     if (!_model) return;
@@ -357,9 +359,7 @@ void DeformableSkin::setMorphTargets(const osg::ref_ptr<const MorphTargets>& tar
 bool DeformableSkin::setMorph(const std::string& name, float weight) {
     const std::size_t index = getMorphTargets() ? getMorphTargets()->find(name) : 0;
     if (index >= getMorphWeights().size() || !std::isfinite(weight)) return false;
-    if (_extras->weights[index] == weight) return true;
-    _extras->weights[index] = weight;
-    shapeChanged();
+    if (std::exchange(_extras->weights[index], weight) != weight) shapeChanged();
     return true;
 }
 
@@ -383,13 +383,17 @@ const std::vector<float>& DeformableSkin::getMorphWeights() const {
     return _extras ? _extras->weights : none;
 }
 
+const std::vector<float>& DeformableSkin::shownMorphWeights() const {
+    return _extras ? _extras->shown : getMorphWeights();
+}
+
 /// \pre there are morph targets
 void DeformableSkin::shapeChanged() {
+    _extras->targets->applyRules(_extras->weights, _extras->shown);
     _extras->isRestOld = true;
     _extras->isMorphed = false;
-    for (std::size_t i = 0; i < _extras->weights.size(); ++i)
-        if (_extras->weights[i] != _extras->targets->targets()[i].initial)
-            _extras->isMorphed = true;
+    for (std::size_t i = 0; i < _extras->shown.size(); ++i)
+        if (_extras->shown[i] != _extras->targets->targets()[i].initial) _extras->isMorphed = true;
     poseChanged(osg::BoundingBox(_extras->poseBounds));
 }
 
@@ -423,7 +427,7 @@ void DeformableSkin::poseChanged(const osg::BoundingBox& poseBounds) {
     if (_extras) _extras->poseBounds = poseBounds;
     osg::BoundingBox bounds = poseBounds;
     if (isMorphed() && bounds.valid()) {
-        double reach = _extras->targets->reach(_extras->weights);
+        double reach = _extras->targets->reach(_extras->shown);
         for (std::size_t j = 0; j < _pose.size(); ++j)
             reach *= std::max(1.0, _pose.transform(j).scale);
         const auto room = static_cast<float>(reach);
@@ -466,7 +470,7 @@ void DeformableSkin::deform() const {
             extras.rest = std::make_unique<MorphedRest>(_model, extras.targets, extras.tangents);
             extras.isRestOld = true;
         }
-        if (extras.isRestOld) extras.rest->set(extras.weights);
+        if (extras.isRestOld) extras.rest->set(extras.shown);
         extras.isRestOld = false;
         job.morphed = extras.rest.get();
     }

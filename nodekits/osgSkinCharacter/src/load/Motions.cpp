@@ -5,16 +5,22 @@
 #include <osgSkinBind/RigidJoints>
 #include <osgSkinImport/ImportMotion>
 #include <osgSkinMotion/MakeAnimation>
+#include <osgSkinRig/BodyDirections>
+#include <osgSkinRig/FaceNames>
 #include <osgSkinRig/JointRoles>
 #include <osgSkinRig/Retarget>
 
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <osg/Quat>
 #include <osgAnimation/Channel>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -24,6 +30,75 @@ namespace {
 void checkSize(CharacterSource& source, const SkinFile::MotionEntry& entry, const Motion& motion) {
     const std::size_t joints = std::max(source.rest.joints.size(), motion.skeleton.joints.size());
     source.samples.add(entry.file, motion.frames + entry.skipFrames, joints, source.limits);
+}
+
+/// Replaces the weights of a motion's expressions by those of the body's morph targets that move
+/// its face so. Notes those that move none.
+void matchMorphs(CharacterSource& source, const std::string& file, Clip& clip) {
+    std::vector<std::string> names, own, lost;
+    for (const auto& [name, weights] : clip.morphs) names.push_back(name);
+    for (const MeshPart& part : source.body.parts)
+        for (const MorphTarget& morph : part.morphs) own.push_back(morph.name);
+    std::map<std::string, std::vector<float>> matched;
+    for (const FaceMatch& match : matchFace(names, own)) {
+        if (match.kind == FaceMatch::Kind::None) lost.push_back(match.name);
+        const std::vector<float>& from = clip.morphs[match.name];
+        for (const FaceMatch::Part& part : match.parts)
+            for (const std::string& morph : part.morphs) { // of one target
+                std::vector<float>& weights = matched[morph];
+                weights.resize(clip.frames, 0.0f);
+                for (std::size_t f = 0; f < clip.frames; ++f)
+                    weights[f] = std::min(weights[f] + part.weight * from[f], 1.0f);
+            }
+    }
+    clip.morphs = std::move(matched);
+    if (!lost.empty())
+        warn(source.notes, file + ": " + std::to_string(lost.size()) +
+                               " expressions move no morph target of the body, \"" + lost.front() +
+                               "\" among them");
+}
+
+/// Sets in every motion the morph targets that another moves, or else they would stay as that one
+/// left them.
+void completeMorphs(const CharacterSource& source, std::vector<CharacterMotion>& motions) {
+    std::set<std::string> moved;
+    for (const CharacterMotion& motion : motions)
+        for (const auto& [morph, weights] : motion.clip.morphs) moved.insert(morph);
+    for (const MeshPart& part : source.body.parts)
+        for (const MorphTarget& morph : part.morphs)
+            if (moved.count(morph.name) != 0)
+                for (CharacterMotion& motion : motions)
+                    motion.clip.morphs.try_emplace(morph.name, motion.clip.frames, morph.initial);
+}
+
+/// How far eyes turn that look 90 degrees away, as in most VRM files.
+constexpr double kEyeTurn = 10.0 * 3.14159265358979 / 180.0;
+
+/// Rotates the eyes as a motion looks, if the body has eyes.
+void turnEyes(const CharacterSource& source, Clip& clip) {
+    const JointRoles roles = recogniseJoints(source.rest, source.bind.names);
+    std::vector<glm::dvec3> centres;
+    for (const RestJoint& joint : source.rest.joints) centres.push_back(joint.centre);
+    const BodyDirections body(roles, centres);
+    const glm::dvec3 left = body.between("RightUpperLeg", "LeftUpperLeg");
+    const glm::dvec3 trunk = body.between("Hips", "Head");
+    const glm::dvec3 up = trunk - glm::dot(trunk, left) * left;
+    bool any = false;
+    for (const char* role : {"LeftEye", "RightEye"}) {
+        const int eye = roles.joint(role);
+        if (eye < 0 || !(glm::length(left) > 0.0) || !(glm::length(up) > 0.0)) continue;
+        any = true;
+        for (std::size_t f = 0; f < clip.frames; ++f) {
+            const auto turn = [&](const char* plus, const char* minus) {
+                return kEyeTurn * double(clip.morphs.at(plus)[f] - clip.morphs.at(minus)[f]);
+            };
+            clip.rotations[f * clip.joints + std::size_t(eye)] =
+                glm::angleAxis(turn("lookLeft", "lookRight"), glm::normalize(up)) *
+                glm::angleAxis(turn("lookDown", "lookUp"), left);
+        }
+    }
+    for (const char* look : {"lookLeft", "lookRight", "lookUp", "lookDown"})
+        if (any) clip.morphs.erase(look);
 }
 
 } // namespace
@@ -44,12 +119,15 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
             options.names = source.bind.names;
             options.up = entry.up;
             made.clip = retarget(motion, source.rest, options, &made.report);
+            if (made.clip.morphs.count("lookUp") != 0) turnEyes(source, made.clip);
+            if (!made.clip.morphs.empty()) matchMorphs(source, entry.file, made.clip);
         };
         withFileContext(source.file, [&] { withFileContext(entry.file, make); });
         OSG_INFO << entry.file << ":\n" << made.report.text();
         for (const std::string& note : made.report.notes)
             warn(source.notes, entry.file + ": " + note);
     }
+    completeMorphs(source, motions);
     return motions;
 }
 

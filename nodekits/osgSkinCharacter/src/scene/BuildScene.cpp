@@ -285,9 +285,9 @@ void takeAnimations(const CharacterSource& source, Character& character) {
 }
 
 /// Whether some clip has channels of morph targets.
-bool drivesMorphs(const osgAnimation::AnimationList& clips) {
-    for (const auto& clip : clips)
-        for (const auto& channel : clip->getChannels())
+bool drivesMorphs(const std::vector<CharacterMotion>& motions) {
+    for (const CharacterMotion& motion : motions)
+        for (const auto& channel : motion.animation->getChannels())
             if (channel->getTargetName() == UpdateMorphs::kName) return true;
     return false;
 }
@@ -360,9 +360,9 @@ void buildScene(CharacterSource& source, const LoadOptions& options, Character& 
     character.root = new osg::Group;
     character.root->setName(osgDB::getStrippedName(character.file));
     character.root->addChild(upright);
+    if (source.skeleton) takeAnimations(source, character);
+    if (drivesMorphs(character.motions)) upright->setUpdateCallback(new UpdateMorphs);
     if (source.skeleton) {
-        takeAnimations(source, character);
-        if (drivesMorphs(source.animations)) upright->setUpdateCallback(new UpdateMorphs);
         const JointCentres atRest = boneCentres(character.rest, *character.root);
         osg::BoundingSphere bound = playedBounds(*character.root, source.animations);
         const JointCentres played = boneCentres(character.rest, *character.root);

@@ -39,6 +39,7 @@ void Character::pose(const CharacterMotion& motion, std::size_t frame) {
     applyFrame(motion.clip, rest, frame, *skeleton);
     if (Constraints* const constraints = find<Constraints>(*skeleton))
         constraints->apply(*skeleton);
+    for (const auto& [morph, weights] : motion.clip.morphs) setMorph(morph, weights[frame]);
     poseSkins(*this);
 }
 

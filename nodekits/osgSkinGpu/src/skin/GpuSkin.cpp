@@ -305,7 +305,7 @@ private:
         _isMorphed->set(skin.isMorphed());
         const std::vector<MorphTarget>& targets = skin.getMorphTargets()->targets();
         for (unsigned int i = 0; i < targets.size(); ++i)
-            texels[i / 4][i % 4] = skin.getMorphWeights()[i] - targets[i].initial;
+            texels[i / 4][i % 4] = skin.shownMorphWeights()[i] - targets[i].initial;
     }
 
     void addOutput(unsigned int index, osg::Array& array) {

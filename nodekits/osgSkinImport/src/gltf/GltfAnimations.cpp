@@ -151,14 +151,15 @@ public:
     AnimationBuilder(const GltfDocument& document, const std::vector<int>& indexOf,
                      SourceScene& scene)
         : _document(document), _accessors(document.accessors), _indexOf(indexOf), _scene(scene),
+          _vrm(vrmAnimationNodes(document)),
           _pieces(4.0 * double(document.file.limits.samplesOf(document.file.ownBytes))) {}
 
     void run() {
         bool moves = false;
         for (std::size_t a = 0; a < _document.animations.size(); ++a) {
             _scene.animations.push_back(build(_document.animations[a], a));
-            moves = moves || !_scene.animations.back()->tracks.empty() ||
-                    !_scene.animations.back()->morphs.empty();
+            const SourceAnimation& built = *_scene.animations.back();
+            moves = moves || !built.tracks.empty() || !built.morphs.empty() || !built.gaze.empty();
         }
         // Keep clips without tracks if another has some: clips can be selected by their number in
         // the file.
@@ -197,6 +198,7 @@ private:
         result->tracks.reserve(nodes.size());
         for (const auto& [n, channels] : nodes) {
             if (channels.weights != nullptr) addWeights(from, *channels.weights, *result);
+            if (addExpression(from, n, channels, *result)) continue;
             if (!channels.translation && !channels.rotation && !channels.scale) continue;
             SourceTrack& track = result->tracks.emplace_back();
             track.node = _document.nodes[n].name;
@@ -204,17 +206,36 @@ private:
             addVectors(from, channels.translation, rest.translation, track.positions);
             addVectors(from, channels.scale, rest.scale, track.scales);
             if (channels.rotation != nullptr) {
-                const Keys& keys = keysOf(from, *channels.rotation);
-                track.rotations.reserve(keys.times.size());
-                for (std::size_t k = 0; k < keys.times.size(); ++k) {
-                    const float* q = &keys.values[4 * k];
-                    track.rotations.push_back({ticks(keys.times[k]), {q[3], q[0], q[1], q[2]}});
-                }
+                addRotations(keysOf(from, *channels.rotation), track.rotations);
             } else if (rest.rotation) {
                 track.rotations.push_back({0.0, *rest.rotation});
             }
         }
         return result;
+    }
+
+    /// Adds what a node of a VRM animation stands for that is no joint.
+    bool addExpression(const GltfAnimation& from, std::size_t n, const NodeChannels& channels,
+                       SourceAnimation& result) {
+        const auto named = _vrm.expressions.find(n);
+        if (named != _vrm.expressions.end() && channels.translation) {
+            const Keys& keys = keysOf(from, *channels.translation);
+            SourceMorphTrack& track = result.morphs.emplace_back();
+            track.morph = named->second;
+            for (std::size_t k = 0; k < keys.times.size(); ++k)
+                track.weights.push_back({ticks(keys.times[k]), keys.values[3 * k]});
+        }
+        if (_vrm.gaze == n && channels.rotation)
+            addRotations(keysOf(from, *channels.rotation), result.gaze);
+        return named != _vrm.expressions.end() || _vrm.gaze == n;
+    }
+
+    static void addRotations(const Keys& keys, std::vector<SourceKey<glm::quat>>& result) {
+        result.reserve(keys.times.size());
+        for (std::size_t k = 0; k < keys.times.size(); ++k) {
+            const float* q = &keys.values[4 * k];
+            result.push_back({ticks(keys.times[k]), {q[3], q[0], q[1], q[2]}});
+        }
     }
 
     /// In single precision, like Assimp's reader.
@@ -343,6 +364,7 @@ private:
     const GltfAccessors& _accessors;
     const std::vector<int>& _indexOf;
     SourceScene& _scene;
+    VrmAnimationNodes _vrm;
     double _pieces;                     ///< how many more pieces splines may have
     std::map<std::size_t, Keys> _known; ///< by sampler of the current animation
     std::string _where;

@@ -160,6 +160,7 @@ struct GltfMesh {
     struct Expression {
         std::string name;
         std::vector<std::pair<std::size_t, double>> parts; ///< below targetNames.size()
+        ExpressionRules rules;
     };
     std::string name;
     std::vector<GltfPrimitive> primitives;
@@ -253,6 +254,13 @@ void addMeshes(const GltfDocument& document, const std::vector<std::size_t>& ord
 /// \throw osgSkin::Error if a track does not have one value per key, or times decrease
 void addAnimations(const GltfDocument& document, const std::vector<int>& indexOf,
                    SourceScene& scene);
+
+/// What the nodes of a VRM animation stand for that are no joints.
+struct VrmAnimationNodes {
+    std::map<std::size_t, std::string> expressions; ///< their names; x is the weight
+    GltfIndex gaze;                                 ///< which rotates as the eyes look
+};
+VrmAnimationNodes vrmAnimationNodes(const GltfDocument& document);
 
 /// Reads the springs of VRM 0 and 1. Reports what names no node, which is left out.
 /// \param indexOf as for addMeshes()

@@ -227,6 +227,7 @@ private:
             }
             MorphTarget target = sumOf(parts);
             target.name = expression.name;
+            target.rules = expression.rules;
             addMorph(std::move(target), mesh);
         }
     }

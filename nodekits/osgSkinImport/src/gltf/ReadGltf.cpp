@@ -193,10 +193,10 @@ std::vector<int> addNodes(const GltfDocument& document, const std::vector<std::s
 
 // --- figures without a skin, made of rigid parts ---
 
-/// The nodes that a VRM file says are its human's bones, by VRM's names of these.
+/// The nodes that a VRM file or animation says are its human's bones, by VRM's names of these.
 std::map<std::string, std::size_t> humanBones(const GltfDocument& document) {
     std::map<std::string, std::size_t> result;
-    for (const std::string extension : {"VRM", "VRMC_vrm"}) {
+    for (const std::string extension : {"VRM", "VRMC_vrm", "VRMC_vrm_animation"}) {
         const json::json_pointer bones("/extensions/" + extension + "/humanoid/humanBones");
         if (!document.file.json.contains(bones)) continue;
         for (const auto& [key, bone] : document.file.json.at(bones).items()) {
@@ -220,8 +220,13 @@ void setRoles(const GltfDocument& document, const std::vector<int>& indexOf, Sou
         nodes.push_back(indexOf[node]);
     }
     const std::vector<std::string> roles = recogniseNames(names);
-    for (std::size_t b = 0; b < nodes.size(); ++b)
-        scene.nodes[static_cast<std::size_t>(nodes[b])].role = roles[b];
+    static const std::map<std::string, std::string> kFace{
+        {"leftEye", "LeftEye"}, {"rightEye", "RightEye"}, {"jaw", "Jaw"}};
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
+        const auto face = kFace.find(names[b]);
+        scene.nodes[static_cast<std::size_t>(nodes[b])].role =
+            face == kFace.end() ? roles[b] : face->second;
+    }
 }
 
 /// The names of the nodes that are joints of a skin, or bones of a VRM's human, or that a clip

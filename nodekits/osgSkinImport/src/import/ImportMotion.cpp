@@ -18,6 +18,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -247,10 +248,42 @@ void dropStill(Motion& motion) {
     }
 }
 
+/// Samples the weights of expressions and morph targets, and how the eyes look.
+void sampleMorphs(const SourceAnimation& animation, const SampleGrid& grid, Motion& motion) {
+    const double rate = animation.ticksPerSecond;
+    const auto sample = [&](const auto& add) {
+        for (std::size_t f = 0; f < motion.frames; ++f)
+            add(Moment{grid.time(f) * rate, 0.5001 * grid.step() * rate});
+    };
+    for (const SourceMorphTrack& track : animation.morphs) {
+        // Several meshes may have weights of one target: the first one's are used.
+        std::vector<float>& weights = motion.morphs[track.morph];
+        if (!weights.empty() || track.weights.empty()) continue;
+        sample([&](const Moment& at) { weights.push_back(valueAt<float>(track.weights, at)); });
+    }
+    if (animation.gaze.empty()) return;
+    sample([&](const Moment& at) {
+        const glm::dquat q = glm::normalize(valueAt<glm::dquat>(animation.gaze, at));
+        const glm::dvec3 ahead = q * glm::dvec3(0.0, 0.0, 1.0);
+        const double aside = std::atan2(ahead.x, ahead.z),
+                     up = std::asin(glm::clamp(ahead.y, -1.0, 1.0));
+        const auto add = [&](const char* name, double angle) {
+            motion.morphs[name].push_back(
+                float(glm::clamp(angle / glm::half_pi<double>(), 0.0, 1.0)));
+        };
+        add("lookLeft", aside);
+        add("lookRight", -aside);
+        add("lookUp", up);
+        add("lookDown", -up);
+    });
+}
+
 /// The times of samples for an animation's keys.
 /// \throw osgSkin::Error as sampleTracks()
-SampleGrid sampleTimes(const std::vector<const SourceTrack*>& tracks, double rate,
-                       std::size_t maxSamples, const std::string& path) {
+SampleGrid sampleTimes(const SourceAnimation& animation,
+                       const std::vector<const SourceTrack*>& tracks, std::size_t maxSamples,
+                       const std::string& path) {
+    const double rate = animation.ticksPerSecond;
     std::vector<double> times;
     bool any = false;
     for (const SourceTrack* track : tracks) {
@@ -259,11 +292,14 @@ SampleGrid sampleTimes(const std::vector<const SourceTrack*>& tracks, double rat
         addTimes(track->positions, rate, times);
         any = any || !track->rotations.empty() || !track->positions.empty();
     }
+    for (const SourceMorphTrack& track : animation.morphs) addTimes(track.weights, rate, times);
+    addTimes(animation.gaze, rate, times);
+    any = any || !animation.morphs.empty() || !animation.gaze.empty();
     if (times.empty() && any) times.push_back(0.0); // a pose
     if (times.empty()) failFile(path, "no key in its animation, expected at least one");
     const SampleGrid grid(std::move(times));
-    if (!(static_cast<double>(grid.samples()) * static_cast<double>(tracks.size()) <=
-          static_cast<double>(maxSamples)))
+    const double each = static_cast<double>(tracks.size() + animation.morphs.size());
+    if (!(static_cast<double>(grid.samples()) * each <= static_cast<double>(maxSamples)))
         failFile(path, "its animation lasts " +
                            std::to_string(grid.step() * double(grid.samples())) + " s, " +
                            std::to_string(grid.samples()) + " frames of " +
@@ -310,7 +346,7 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
                     std::size_t maxSamples, const std::string& path) {
     const std::vector<const SourceTrack*> tracks = tracksOf(animation, skeleton);
     const double rate = animation.ticksPerSecond;
-    const SampleGrid grid = sampleTimes(tracks, rate, maxSamples, path);
+    const SampleGrid grid = sampleTimes(animation, tracks, maxSamples, path);
     Motion motion;
     const std::vector<bool> moved = findMovedJoints(tracks, skeleton);
     const std::size_t root = rootMotionJoint(skeleton.rest, moved);
@@ -362,6 +398,7 @@ Motion sampleTracks(const SourceAnimation& animation, const SceneSkeleton& skele
         motion.rootPositions.push_back(rootPosition(tracks, skeleton, carried.above, root, moment));
     }
     dropStill(motion);
+    sampleMorphs(animation, grid, motion);
     return motion;
 }
 
@@ -395,7 +432,7 @@ std::size_t firstClip(const SourceScene& scene, const std::vector<std::string>& 
                       const std::string& path) {
     std::size_t first = 0, count = 0;
     for (std::size_t a = 0; a < names.size(); ++a) {
-        if (scene.animations[a]->tracks.empty()) continue;
+        if (scene.animations[a]->tracks.empty()) continue; // a face alone, where there are others
         if (count++ == 0) first = a;
     }
     if (count > 1)
@@ -416,9 +453,9 @@ Motion readSceneMotion(const std::string& path, const std::string& clip, const R
     const std::size_t chosen =
         clip.empty() ? firstClip(scene, names, path) : findClip(names, clip, path);
     const SourceAnimation& animation = *scene.animations[chosen];
-    if (animation.tracks.empty())
-        failFile(path,
-                 "clip " + inQuotes(names[chosen]) + " moves no joint, expected one that does");
+    if (animation.tracks.empty() && animation.morphs.empty() && animation.gaze.empty())
+        failFile(path, "clip " + inQuotes(names[chosen]) +
+                           " moves no joint and no expression, expected one that does");
     takeTrackOffsets(animation, scene);
     Motion motion = sampleTracks(animation, readSceneSkeleton(scene, path, limits),
                                  limits.samplesOf(scene.bytes), path);
@@ -435,6 +472,8 @@ void dropFirst(Motion& motion, std::size_t count) {
                                motion.rootPositions.begin() + static_cast<std::ptrdiff_t>(count));
     for (auto& [joint, positions] : motion.moves)
         positions.erase(positions.begin(), positions.begin() + static_cast<std::ptrdiff_t>(count));
+    for (auto& [morph, weights] : motion.morphs)
+        weights.erase(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(count));
     motion.frames -= count;
 }
 

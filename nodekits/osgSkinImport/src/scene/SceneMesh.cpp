@@ -248,6 +248,7 @@ void addMorphs(const SourceMesh& source, const glm::dmat4& toScene,
             result.morphs.emplace_back();
             result.morphs.back().name = from.name;
             result.morphs.back().initial = from.initial;
+            result.morphs.back().rules = from.rules;
         }
         MorphTarget& to = result.morphs[entry->second];
         const bool hasNormals = !from.normals.empty() && !source.normals.empty();

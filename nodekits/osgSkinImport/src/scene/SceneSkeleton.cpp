@@ -136,7 +136,11 @@ std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind
         if (const SourceNode* node = bind.find(name)) bones.insert(node);
     for (const std::string& name : animatedNames(scene))
         if (const SourceNode* node = bind.find(name)) moving.insert(node);
-    if (bones.empty()) return moving.empty() ? nodesOfSkeleton(bind) : moving;
+    if (bones.empty()) {
+        for (const SourceNode* node : bind.nodes()) // a VRM animation may move an arm alone
+            if (!node->role.empty()) moving.insert(node);
+        return moving.empty() ? nodesOfSkeleton(bind) : moving;
+    }
     for (const Constraint& constraint : scene.constraints)
         for (const std::string& name : {constraint.joint.name, constraint.source.name})
             if (const SourceNode* node = bind.find(name)) moving.insert(node);

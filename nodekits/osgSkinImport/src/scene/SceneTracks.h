@@ -23,6 +23,10 @@ inline glm::dvec3 blend(const glm::dvec3& a, const glm::dvec3& b, double t) {
     return glm::mix(a, b, t);
 }
 
+inline float blend(float a, float b, double t) {
+    return a + float(t) * (b - a);
+}
+
 /// The track's value: a key's exact value if it is at the sample, or else interpolated.
 /// \param keys at least one
 template <typename Result, typename Key>

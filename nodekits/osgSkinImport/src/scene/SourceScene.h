@@ -113,6 +113,8 @@ struct SourceAnimation {
     std::vector<SourceTrack> tracks;
     /// Several may drive one target: in files, each mesh has weights of its own.
     std::vector<SourceMorphTrack> morphs;
+    /// How the eyes look, as a rotation of +z about y, then x, in the head's space at rest.
+    std::vector<SourceKey<glm::quat>> gaze;
 };
 
 /// Copies share the meshes, images and animations.

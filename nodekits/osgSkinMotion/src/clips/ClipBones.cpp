@@ -26,6 +26,10 @@ void requireFits(const Clip& clip, const RestSkeleton& rig) {
         if (joint == 0 || joint >= clip.joints || positions.size() != clip.frames)
             throw Error(label + "its moves do not fit its joints and " +
                         std::to_string(clip.frames) + " frames");
+    for (const auto& [morph, weights] : clip.morphs)
+        if (weights.size() != clip.frames)
+            throw Error(label + "expected a weight of \"" + morph + "\" for each of " +
+                        std::to_string(clip.frames) + " frames");
 }
 
 void requireUsable(const Clip& clip, const RestSkeleton& rig) {

@@ -7,6 +7,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/GlmOsg>
 #include <osgSkin/GlmTypes>
+#include <osgSkin/UpdateMorphs>
 #include <osgSkin/UpdatePlayedSkeleton>
 #include <osgSkinMotion/ApplyFrame>
 #include <osgSkinMotion/Prop>
@@ -139,6 +140,20 @@ osg::ref_ptr<osgAnimation::Channel> positionChannel(const Clip& clip,
         keys->push_back(osgAnimation::Vec3Keyframe(time, osg::Vec3(toOsg(positions[sample]))));
     });
     return channel;
+}
+
+/// Adds the channels of a clip's morph targets, for an UpdateMorphs.
+void addMorphs(const Clip& clip, osgAnimation::Animation& animation) {
+    for (const auto& [morph, weights] : clip.morphs) {
+        const osg::ref_ptr<osgAnimation::FloatLinearChannel> channel =
+            new osgAnimation::FloatLinearChannel;
+        channel->setName(morph);
+        channel->setTargetName(UpdateMorphs::kName);
+        forEachKey(clip, [&, &of = weights](std::size_t sample, double time) {
+            addKey(*channel, time, of[sample]);
+        });
+        animation.getChannels().push_back(channel);
+    }
 }
 
 /// Computes the matrices of a skeleton's bones in a clip's frames; bones may have axes of their own
@@ -280,6 +295,7 @@ osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const Rest
         channel->setTargetName(rig.joints[joint].name);
         animation->getChannels().push_back(channel);
     }
+    addMorphs(clip, *animation);
     animation->computeDuration();
     return animation;
 }
@@ -301,6 +317,7 @@ osg::ref_ptr<osgAnimation::Animation> makeAnimation(const Clip& clip, const Rest
     animation->setPlayMode(osgAnimation::Animation::LOOP);
     for (const auto& [joint, channels] : moved)
         for (const auto& channel : channels.channels()) animation->getChannels().push_back(channel);
+    addMorphs(clip, *animation);
     animation->computeDuration();
     return animation;
 }

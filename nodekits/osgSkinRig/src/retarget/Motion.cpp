@@ -40,6 +40,10 @@ void Motion::validate() const {
         if (joint == 0 || joint >= joints || positions.size() != frames)
             throw Error(label + "its moves do not fit its joints and " + std::to_string(frames) +
                         " frames");
+    for (const auto& [morph, weights] : morphs)
+        if (weights.size() != frames)
+            throw Error(label + "expected a weight of \"" + morph + "\" for each of " +
+                        std::to_string(frames) + " frames");
     for (std::size_t f = 0; f < frames; ++f) {
         const auto at = [&] { return label + "frame " + std::to_string(f) + ": "; };
         if (!isInRange(rootPositions[f]))

@@ -107,6 +107,7 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     if (report == nullptr) report = &own;
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, *report)
                             : aligned(motion, rig, map, pose, options, *report);
+    clip.morphs = motion.morphs;
     if (pose.isSame && !motion.moves.empty()) addMoves(motion, rig, map.motionJoint, *report, clip);
     if (options.shareTwist && !pose.copied) {
         const std::vector<std::size_t> shared = HingeTwist(rig, map.rig).share(clip);

@@ -36,14 +36,20 @@ std::vector<MorphTarget> MorphsByVertex::ofCopies(const std::vector<std::uint32_
         for (std::size_t e = ranges.back().begin; e < ranges.back().end; ++e)
             ++counts[_entries[e].target];
     }
+    // A piece with eyelids has an expression that overrides blinking, although it moves none of it.
+    bool hasOverridden = false;
+    for (std::size_t t = 0; t < _targets.size(); ++t)
+        hasOverridden = hasOverridden ||
+                        (counts[t] > 0 && _targets[t].rules.part != ExpressionRules::Part::None);
     std::vector<MorphTarget> result;
     std::vector<std::size_t> places(_targets.size());
     for (std::size_t t = 0; t < _targets.size(); ++t) {
         places[t] = result.size();
-        if (counts[t] == 0) continue;
+        if (counts[t] == 0 && !(hasOverridden && _targets[t].rules.overrides())) continue;
         MorphTarget& to = result.emplace_back();
         to.name = _targets[t].name;
         to.initial = _targets[t].initial;
+        to.rules = _targets[t].rules;
         to.vertices.reserve(counts[t]);
         to.positions.reserve(counts[t]);
         to.normals.reserve(_targets[t].normals.empty() ? 0 : counts[t]);
