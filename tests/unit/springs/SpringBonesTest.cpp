@@ -113,6 +113,20 @@ TEST(SpringBones, HangFromTheFirstFrameOn) {
     EXPECT_GT(figure.tail() * kDown, 0.05);
 }
 
+/// As the first joints of skirts: rounding must not turn them.
+TEST(SpringBones, OfNearlyNoLengthFollowTheirParents) {
+    SpringSettings settings = tailSprings();
+    settings.chains[0].joints[0].tip = glm::dvec3(0, 160, -10 - 1e-5);
+    Figure figure(settings);
+    for (int i = 0; i < 240; ++i) {
+        figure.place->setMatrix(osg::Matrixd::translate(0.37 + 0.01 * i, 0.1, 0.003 * i));
+        figure.turn->angle = 0.01 * i;
+        figure.frame();
+        const osg::Quat turn = osg::Matrixd(figure.bone("Tail1")->getMatrix()).getRotate();
+        EXPECT_NEAR(std::abs(turn.w()), 1.0, 1e-9) << i;
+    }
+}
+
 TEST(SpringBones, LagBehindAMoveAndComeBack) {
     Figure figure;
     for (int i = 0; i < 60; ++i) figure.frame();

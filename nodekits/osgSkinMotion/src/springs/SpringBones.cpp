@@ -285,7 +285,7 @@ void SpringBones::Swing::move(Group& group, const osg::Matrixd& place, double se
         const glm::dvec3 from = toGlm(each.tip * at - at.getTrans());
         const glm::dvec3 to = toGlm(toOsg(group.chains.tips()[i]) * fromMetres - at.getTrans());
         each.base = each.bone->getMatrix();
-        if (glm::length(from) > 0.0 && glm::length(to) > 0.0)
+        if (group.chains.swings(i) && glm::length(to) > 0.0)
             rotateBone(*each.bone, toOsg(shortestRotation(from, to)));
         each.swung = each.bone->getMatrix();
     }

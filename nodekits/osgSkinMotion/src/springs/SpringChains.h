@@ -3,6 +3,8 @@
 
 #include <osgSkin/GlmTypes>
 
+#include <glm/geometric.hpp>
+
 #include <cstddef>
 #include <vector>
 
@@ -85,6 +87,11 @@ public:
 
     /// Where the bones' tips are.
     const std::vector<glm::dvec3>& tips() const { return _tips; }
+    /// Whether a bone is long enough to swing; the tip of one that follows its parent is its head.
+    bool swings(std::size_t joint) const {
+        const Bone& bone = _now.bones[joint];
+        return glm::distance(bone.tip, bone.head) > _states[joint].leastLength;
+    }
 
     // For files:
     const std::vector<State>& states() const { return _states; }
