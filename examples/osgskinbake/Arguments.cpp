@@ -163,7 +163,7 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     line.add("--pose", arguments.pose, "write the joints' transforms of the frames (JSON)");
     const auto rigged = line.add(
         "--rigged", arguments.rigged,
-        "write a skeleton, weights and clips for other engines (.glb) or for osgAnimation alone "
+        "write a skeleton, weights and clips for other engines (.glb, .vrm) or osgAnimation alone "
         "(.osgb); all clips without --motion");
     line.add("--helpers", helpers,
              "helper joints of --rigged for each joint that bends skin, in the mean at most; 8")
@@ -194,9 +194,10 @@ Arguments parseArguments(example::CommandLine& line, int argc, const char* const
     arguments.helpers = std::size_t(helpers);
     arguments.weights = weights == "8" ? 8 : 4;
     if (rigged.isGiven() && extensionOf(arguments.rigged) != "glb" &&
-        !isSceneFile(arguments.rigged))
-        throw UsageError{"--rigged: expected a file whose name ends in .glb or .osgb, found \"" +
-                         arguments.rigged + "\""};
+        extensionOf(arguments.rigged) != "vrm" && !isSceneFile(arguments.rigged))
+        throw UsageError{
+            "--rigged: expected a file whose name ends in .glb, .vrm or .osgb, found \"" +
+            arguments.rigged + "\""};
     if (faces == "-y") gaits.forward = osgSkin::WalkerOptions::Forward::MinusY;
     if (walker.isGiven() && !isSceneFile(arguments.walker))
         throw UsageError{"--walker: expected a file whose name ends in .osgb, found \"" +

@@ -55,6 +55,21 @@ JointMap PosedJoints::product(const Ratios& ratios) const {
     return result;
 }
 
+ModeWeights modeWeights(const osgSkin::Pose& pose, const osgSkin::CorrectiveJoint& joint,
+                        const Binding& binding) {
+    glm::dvec2 xy(0.0);
+    if (joint.basis == osgSkin::CorrectiveJoint::Basis::Input) {
+        xy.x = double(pose.input(joint.joint));
+    } else {
+        const osgSkin::BendTwist split = pose.transform(joint.joint).split;
+        xy = joint.coordinates(split.bendAxis, split.bendAngle,
+                               binding.joints[joint.joint].twistAxis);
+    }
+    ModeWeights weights{};
+    joint.weights(xy, weights.data());
+    return weights;
+}
+
 std::vector<double> limbRadii(const Binding& binding, const std::vector<glm::dvec3>& rest) {
     std::vector<std::vector<double>> distances(binding.joints.size());
     for (std::size_t v = 0; v < rest.size(); ++v)
@@ -198,7 +213,12 @@ public:
     Fit(const Binding& binding, const std::vector<glm::dvec3>& rest,
         const std::vector<osgSkin::Pose>& poses, const LinearSkinOptions& options)
         : _binding(binding), _rest(rest), _options(options), _radii(limbRadii(binding, rest)) {
-        for (const osgSkin::Pose& pose : poses) _poses.emplace_back(binding.joints, pose);
+        for (const osgSkin::Pose& pose : poses) {
+            _poses.emplace_back(binding.joints, pose);
+            _modes.emplace_back();
+            for (const osgSkin::CorrectiveJoint& joint : binding.correctives.joints)
+                _modes.back().push_back(modeWeights(pose, joint, binding));
+        }
         _bends.resize(binding.joints.size(), 1e-6);
         _twists = _bends;
         for (const PosedJoints& pose : _poses)
@@ -372,16 +392,34 @@ private:
         return true;
     }
 
+    /// Where correctives move a vertex at rest, in each pose.
+    std::vector<glm::dvec3> correctedRest(std::uint32_t v) const {
+        std::vector<glm::dvec3> result(_poses.size(), _rest[v]);
+        const osgSkin::Correctives& from = _binding.correctives;
+        if (from.empty()) return result;
+        for (std::uint32_t i = from.firstEntry[v]; i < from.firstEntry[v + 1]; ++i) {
+            const auto& entry = from.entries[i];
+            const std::int16_t* share = &from.shares[entry.firstShare];
+            for (std::size_t k = 0; k < from.joints[entry.joint].modes; ++k, share += 3) {
+                const glm::dvec3 vector =
+                    glm::dvec3(share[0], share[1], share[2]) / double(osgSkin::Correctives::kUnit);
+                for (std::size_t p = 0; p < result.size(); ++p)
+                    result[p] += _modes[p][entry.joint][k] * vector;
+            }
+        }
+        return result;
+    }
+
     /// Finds the weights of a vertex, and its error; keeps those that it has if they are better.
     void solve(Vertex& vertex) const {
-        const glm::dvec3& x = _rest[vertex.index];
+        const std::vector<glm::dvec3> rest = correctedRest(vertex.index);
         const std::size_t count = vertex.candidates.size();
         Gram gram{};
         std::vector<std::array<glm::dvec3, kCandidates>> away(_poses.size());
         for (std::size_t p = 0; p < _poses.size(); ++p) {
-            const glm::dvec3 place = _poses[p].product(_ratios[vertex.index]) * x;
+            const glm::dvec3 place = _poses[p].product(_ratios[vertex.index]) * rest[p];
             for (std::size_t i = 0; i < count; ++i) {
-                away[p][i] = _maps[vertex.candidates[i].second][p] * x - place;
+                away[p][i] = _maps[vertex.candidates[i].second][p] * rest[p] - place;
                 for (std::size_t k = 0; k <= i; ++k) gram[i][k] += glm::dot(away[p][i], away[p][k]);
             }
         }
@@ -404,17 +442,17 @@ private:
 
     /// Looks among all helpers for some that improve a vertex, although others are nearer.
     void refine(Vertex& vertex) const {
-        const glm::dvec3& x = _rest[vertex.index];
+        const std::vector<glm::dvec3> rest = correctedRest(vertex.index);
         std::vector<glm::dvec3> places;
-        for (const PosedJoints& pose : _poses)
-            places.push_back(pose.product(_ratios[vertex.index]) * x);
+        for (std::size_t p = 0; p < rest.size(); ++p)
+            places.push_back(_poses[p].product(_ratios[vertex.index]) * rest[p]);
         while (vertex.error > kNegligible) {
             std::vector<glm::dvec3> errors;
             double squared = 0.0;
             for (std::size_t p = 0; p < _poses.size(); ++p) {
                 glm::dvec3 error = -places[p];
                 for (const LinearSkin::Weight& w : vertex.weights)
-                    error += double(w.weight) * (_maps[w.joint][p] * x);
+                    error += double(w.weight) * (_maps[w.joint][p] * rest[p]);
                 errors.push_back(error);
                 squared += glm::dot(error, error);
             }
@@ -423,7 +461,7 @@ private:
             for (std::uint32_t h = 0; h < _targets.size(); ++h) {
                 double slope = 0.0, length = 0.0;
                 for (std::size_t p = 0; p < _poses.size(); ++p) {
-                    const glm::dvec3 step = places[p] + errors[p] - _maps[h][p] * x;
+                    const glm::dvec3 step = places[p] + errors[p] - _maps[h][p] * rest[p];
                     slope += glm::dot(step, errors[p]);
                     length += glm::dot(step, step);
                 }
@@ -507,10 +545,11 @@ private:
     LinearSkinOptions _options;
     std::vector<double> _radii;
     std::vector<PosedJoints> _poses;
-    std::vector<double> _bends, _twists;      ///< mean squared angles of each joint
-    std::vector<Ratios> _ratios;              ///< of each vertex
-    std::vector<HelperJoint> _targets;        ///< the joints themselves, then the helpers
-    std::vector<std::vector<JointMap>> _maps; ///< of each of these, in each pose
+    std::vector<std::vector<ModeWeights>> _modes; ///< of the correctives' joints in each pose
+    std::vector<double> _bends, _twists;          ///< mean squared angles of each joint
+    std::vector<Ratios> _ratios;                  ///< of each vertex
+    std::vector<HelperJoint> _targets;            ///< the joints themselves, then the helpers
+    std::vector<std::vector<JointMap>> _maps;     ///< of each of these, in each pose
 };
 
 } // namespace

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <osgSkin/Binding>
+#include <osgSkin/Correctives>
 #include <osgSkin/Pose>
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -46,6 +48,11 @@ struct HelperJoint {
     std::uint32_t parent = 0; ///< the nearest joint above that it follows wholly
 };
 
+/// The weights of a joint's correctives, or an input's, in a pose.
+using ModeWeights = std::array<double, osgSkin::CorrectiveJoint::kMaxModes>;
+ModeWeights modeWeights(const osgSkin::Pose& pose, const osgSkin::CorrectiveJoint& joint,
+                        const osgSkin::Binding& binding);
+
 /// A skin for linear blending that moves as a binding does.
 struct LinearSkin {
     struct Weight {
@@ -68,7 +75,7 @@ struct LinearSkinOptions {
 /// binding. Helpers are ratios of vertices, chosen one after another where the skin is farthest
 /// off; weights are those with the least squares of distances over the poses.
 ///
-/// Correctives are left out.
+/// Vertices are moved by correctives first, which linear blending must have as morph targets.
 ///
 /// \param binding valid
 /// \param rest the vertices' positions, rest space

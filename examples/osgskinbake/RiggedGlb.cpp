@@ -2,16 +2,18 @@
 #include "RiggedGlb.h"
 
 #include "Glb.h"
+#include "JointRanges.h"
 #include "Surface.h"
+#include "Vrm.h"
 
 #include <osgSkin/Correctives>
 #include <osgSkin/DeformableSkin>
 #include <osgSkin/MorphTargets>
 #include <osgSkin/RigidPart>
+#include <osgSkin/SetMorph>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
@@ -31,54 +33,10 @@ using osgSkin::CorrectiveJoint;
 using osgSkin::Correctives;
 using osgSkin::JointMap;
 
-constexpr std::size_t kFitPoses = 64; ///< spread over all clips, besides each joint's extremes
-constexpr double kNegligible = 3e-5;  ///< displacement by a corrective, in the body's size
-constexpr double kUnmoved = 1e-7;     ///< a number of a channel that does not differ from another
-
-/// From rest space to glTF's: metres, Y up, facing +Z.
-class ToGltf {
-public:
-    explicit ToGltf(const Character& character) : _scale(character.metresPerUnit()) {
-        glm::dmat3 rotation;
-        for (int axis = 0; axis < 3; ++axis) {
-            osg::Vec3d unit;
-            unit[axis] = 1.0;
-            const osg::Vec3d world =
-                osg::Matrixd::transform3x3(unit, character.toWorld) / _scale; // Z up, facing -Y
-            rotation[axis] = {world.x(), world.z(), -world.y()};
-        }
-        _rotation = glm::normalize(glm::quat_cast(rotation));
-    }
-    glm::dvec3 direction(const glm::dvec3& v) const { return _rotation * v; }
-    glm::dvec3 vector(const glm::dvec3& v) const { return _scale * direction(v); }
-    glm::dquat rotation(const glm::dquat& q) const {
-        return _rotation * q * glm::conjugate(_rotation);
-    }
-
-private:
-    double _scale;
-    glm::dquat _rotation;
-};
-
-/// Each joint bent by 60 degrees about two axes, and twisted by as much, alone.
-std::vector<osgSkin::Pose> plainPoses(const osgSkin::Binding& binding) {
-    const std::size_t count = binding.joints.size();
-    std::vector<osgSkin::Pose> result;
-    for (std::size_t j = 0; j < count; ++j) {
-        const osgSkin::BoundJoint& joint = binding.joints[j];
-        const glm::dvec3 w = joint.twistAxis;
-        const glm::dvec3 other = std::abs(w.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-        const glm::dvec3 across = glm::normalize(glm::cross(w, other));
-        for (const glm::dvec3& axis : {w, across, glm::cross(w, across)}) {
-            std::vector<JointMap> own(count);
-            const glm::dquat q(std::sqrt(0.75), 0.5 * axis);
-            own[j] = {q, joint.centre - q * joint.centre, 1.0};
-            result.emplace_back(binding.joints, binding.correctives.inputs.size());
-            result.back().set(own.data(), count);
-        }
-    }
-    return result;
-}
+constexpr std::size_t kFitPoses = 64;  ///< spread over all clips, besides each joint's extremes
+constexpr double kNegligible = 3e-5;   ///< displacement by a corrective, in the body's size
+constexpr double kRangesSeconds = 0.5; ///< between poses
+constexpr double kUnmoved = 1e-7;      ///< a number of a channel that does not differ from another
 
 /// Poses for fitting weights: some of every clip, and those in which a joint bends or twists most.
 std::vector<osgSkin::Pose> fitPoses(const osgSkin::Binding& binding,
@@ -86,7 +44,7 @@ std::vector<osgSkin::Pose> fitPoses(const osgSkin::Binding& binding,
     std::vector<const osgSkin::Pose*> all;
     for (const RiggedClip& clip : clips)
         for (const osgSkin::Pose& pose : clip.poses) all.push_back(&pose);
-    if (all.empty()) return plainPoses(binding);
+    if (all.empty()) return jointRanges(binding);
     std::set<std::size_t> chosen;
     for (std::size_t i = 0; i < kFitPoses; ++i)
         chosen.insert(i * (all.size() - 1) / (kFitPoses - 1));
@@ -194,23 +152,6 @@ void addMoves(Shape& shape, const Correctives& from, std::uint32_t corrective, s
     }
 }
 
-/// The weights of a joint's correctives, or an input's, in a pose.
-std::array<double, CorrectiveJoint::kMaxModes> weightsIn(const osgSkin::Pose& pose,
-                                                         const CorrectiveJoint& joint,
-                                                         const osgSkin::Binding& binding) {
-    glm::dvec2 xy(0.0);
-    if (joint.basis == CorrectiveJoint::Basis::Input) {
-        xy.x = double(pose.input(joint.joint));
-    } else {
-        const osgSkin::BendTwist split = pose.transform(joint.joint).split;
-        xy = joint.coordinates(split.bendAxis, split.bendAngle,
-                               binding.joints[joint.joint].twistAxis);
-    }
-    std::array<double, CorrectiveJoint::kMaxModes> weights{};
-    joint.weights(xy, weights.data());
-    return weights;
-}
-
 /// The modes of the correctives as shapes. Many engines clamp weights to 0..1, so a mode becomes
 /// two shapes, one for its negative weights; those that no clip uses are left out.
 std::vector<Shape> correctiveShapes(const Character& character,
@@ -227,7 +168,7 @@ std::vector<Shape> correctiveShapes(const Character& character,
         for (const RiggedClip& clip : clips) {
             for (Shape& mode : modes) mode.weights.emplace_back();
             for (const osgSkin::Pose& pose : clip.poses) {
-                const auto weights = weightsIn(pose, joint, binding);
+                const ModeWeights weights = modeWeights(pose, joint, binding);
                 for (std::size_t k = 0; k < modes.size(); ++k) {
                     const double weight = k % 2 == 0 ? weights[k / 2] : -weights[k / 2];
                     modes[k].weights.back().push_back(float(std::max(weight, 0.0)));
@@ -276,25 +217,41 @@ private:
     std::vector<double> _atRest, _keys;
 };
 
+/// The clip of a character that has none: without it nothing would move helpers.
+std::vector<RiggedClip> rangesClip(const Character& character) {
+    RiggedClip clip{kRangesClip, kRangesSeconds, jointRanges(character.binding), {}};
+    std::vector<float> weights;
+    for (const std::string& name : character.morphs())
+        weights.push_back(osgSkin::getMorph(*character.root, name));
+    clip.morphs.assign(clip.poses.size(), weights);
+    return {clip};
+}
+
 /// Writes the nodes, the skin, the mesh and the animations.
 class Rig {
 public:
     Rig(const Character& character, const std::vector<RiggedClip>& clips,
         const LinearSkinOptions& options)
         : _character(character), _joints(character.binding.joints), _clips(clips),
-          _toGltf(character), _surfaces(surfacesOf(character)),
-          _shapes(morphShapes(character, _surfaces, clips)) {
-        _report.morphs = _shapes.size();
-        for (Shape& shape : correctiveShapes(character, _surfaces, clips))
-            _shapes.push_back(std::move(shape));
+          _toGltf(character), _surfaces(surfacesOf(character)), _vrm(character) {
         LinearSkinOptions fit = options;
-        if (clips.empty()) fit.helpers = 0; // nothing would move them
+        // Programs pose a VRM's bones themselves.
+        if (clips.empty() && _vrm.isHuman()) fit.helpers = 0;
         _skin = fitLinearSkin(character.binding, character.body.mesh.positions,
                               fitPoses(character.binding, clips), fit);
+        _report.hasRanges = clips.empty() && !_skin.helpers.empty();
+        if (_report.hasRanges) _clips = rangesClip(character);
+        _shapes = morphShapes(character, _surfaces, _clips);
+        _report.morphs = _shapes.size();
+        for (Shape& shape : correctiveShapes(character, _surfaces, _clips))
+            _shapes.push_back(std::move(shape));
         _report.joints = _joints.size();
         _report.helpers = _skin.helpers.size();
         _report.correctives = _shapes.size() - _report.morphs;
         _report.worst = _skin.worst;
+        _report.isHuman = _vrm.isHuman();
+        _report.vrmNote = _vrm.note();
+        _report.leftOut = _vrm.leftOut();
     }
 
     const RiggedReport& write(const std::string& file, std::size_t weights) {
@@ -310,6 +267,9 @@ public:
         materials.finish(root);
         nlohmann::json animations = animate(meshNode);
         if (!animations.empty()) root["animations"] = std::move(animations);
+        std::vector<std::string> morphs;
+        for (const Shape& shape : _shapes) morphs.push_back(shape.name);
+        _vrm.write(morphs, meshNode, root);
         _buffer.write(file, root);
         return _report;
     }
@@ -338,6 +298,9 @@ private:
                 name = _joints[helper(n).joint].name + "_helper_" +
                        std::to_string(++numbers[helper(n).joint]);
             result.push_back({{"name", name}, {"translation", {at.x, at.y, at.z}}});
+            if (n >= _joints.size())
+                for (const osgSkin::Influence& of : helper(n).ratios)
+                    result.back()["extras"]["follows"].push_back({of.joint, of.bend, of.twist});
             if (parent(n) >= 0) result[std::size_t(parent(n))]["children"].push_back(n);
         }
         return result;
@@ -369,7 +332,8 @@ private:
         nlohmann::json result{{"name", "skin"}, {"primitives", primitives}};
         for (const Shape& shape : _shapes) {
             result["weights"].push_back(shape.initial);
-            result["extras"]["targetNames"].push_back(shape.name);
+            result["extras"]["targetNames"].push_back(
+                shape.name + (_vrm.isExpression(shape.name) ? "_shape" : ""));
         }
         return result;
     }
@@ -514,10 +478,11 @@ private:
 
     const Character& _character;
     const std::vector<osgSkin::BoundJoint>& _joints;
-    const std::vector<RiggedClip>& _clips;
+    std::vector<RiggedClip> _clips;
     ToGltf _toGltf;
     std::vector<Surface> _surfaces;
     std::vector<Shape> _shapes;
+    Vrm _vrm;
     LinearSkin _skin;
     RiggedReport _report;
     GlbBuffer _buffer;

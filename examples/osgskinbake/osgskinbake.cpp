@@ -371,23 +371,28 @@ struct TemporaryFile {
     }
 };
 
-/// Tells what a rigged file cannot hold.
-void reportLeftOut(const Character& character) {
+/// Tells what a rigged file does not hold.
+void reportLeftOut(const Character& character, const bake::RiggedReport& report, bool isScene) {
     std::string leftOut;
-    const auto add = [&](bool isThere, const char* what) {
-        if (isThere) leftOut += std::string(leftOut.empty() ? "" : ", ") + what;
+    const auto add = [&](bool isThere, const std::string& what) {
+        if (isThere) leftOut += (leftOut.empty() ? "" : ", ") + what;
     };
     const std::vector<osgSkin::RestJoint>& joints = character.rest.joints;
     const bool isVrm =
         std::any_of(joints.begin(), joints.end(),
                     [](const osgSkin::RestJoint& joint) { return !joint.role.empty(); });
-    add(osgSkin::find<osgSkin::SpringBones>(*character.root) != nullptr, "spring bones");
+    const bool isLost = isVrm && (isScene || !report.isHuman);
+    add(isScene && osgSkin::find<osgSkin::SpringBones>(*character.root) != nullptr, "spring bones");
     add(osgSkin::find<osgSkin::Constraints>(*character.root) != nullptr, "constraints");
-    add(isVrm, "which joint is which part of the body");
-    add(isVrm && !character.morphs().empty(), "which morph targets are expressions");
-    if (!leftOut.empty())
-        std::cerr << osgSkin::onOneLine(character.file) << ": left out: " << leftOut << '\n'
-                  << std::flush;
+    add(isLost, "which joint is which part of the body");
+    add(isLost && !character.morphs().empty(), "which morph targets are expressions");
+    for (const std::string& what : report.leftOut) add(!isScene, what);
+    for (const std::string& line :
+         {leftOut.empty() ? "" : "left out: " + leftOut, isScene ? std::string() : report.vrmNote})
+        if (!line.empty())
+            std::cerr << osgSkin::onOneLine(character.file) << ": " << osgSkin::onOneLine(line)
+                      << '\n'
+                      << std::flush;
 }
 
 void bakeRigged(const Arguments& arguments, Character& character) {
@@ -400,15 +405,17 @@ void bakeRigged(const Arguments& arguments, Character& character) {
     if (isScene) bake::writeOsgRig(glb, arguments.rigged);
     if (arguments.quiet) return;
     std::cerr << arguments.rigged << ": " << report.joints << " joints, " << report.helpers
-              << " helper joints, " << clips.size() << " clips, " << report.morphs
-              << " morph targets and " << report.correctives << " of correctives; skin is at most "
-              << report.worst << " of a limb's radius off "
-              << (clips.empty()
-                      ? "where joints bend far: no clip would move helper joints, so limbs "
-                        "lose volume as with any linear blending\n"
-                      : "in the poses of the fit\n")
-              << std::flush;
-    reportLeftOut(character);
+              << " helper joints, " << clips.size() + report.hasRanges << " clips, "
+              << report.morphs << " morph targets and " << report.correctives
+              << " of correctives; skin is at most " << report.worst << " of a limb's radius off "
+              << (clips.empty() ? "where joints bend and twist through their range\n"
+                                : "in the poses of the fit\n");
+    if (report.hasRanges)
+        std::cerr << arguments.rigged << ": clip \"" << bake::kRangesClip
+                  << "\" alone moves helper joints: programs that pose joints must pose these, "
+                     "too (\"extras\" of their nodes), or take --helpers 0\n";
+    std::cerr << std::flush;
+    reportLeftOut(character, report, isScene);
 }
 
 /// Finds nodes of a character's scene that are not its body: props, scenery, objects without a rig.
