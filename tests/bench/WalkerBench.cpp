@@ -31,9 +31,10 @@ const std::string& savedWalker() {
     return walker.path;
 }
 
-/// A copy as esmini makes it.
+/// A copy as esmini makes it, with callbacks of its own: copies that share them show one pose.
 osg::ref_ptr<osg::Node> copyOf(const osg::Node& walker) {
     return osg::clone(&walker, osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES |
+                                   osg::CopyOp::DEEP_COPY_CALLBACKS |
                                    osg::CopyOp::DEEP_COPY_STATESETS |
                                    osg::CopyOp::DEEP_COPY_STATEATTRIBUTES);
 }
