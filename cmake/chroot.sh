@@ -13,7 +13,7 @@ shift 2
 
 if [ ! -e "$root.made" ]; then
   osgskin_install mmdebstrap
-  packages=$(echo $osgskin_build_packages $osgskin_test_packages | tr ' ' ,)
+  packages=$(echo $osgskin_build_packages $osgskin_test_packages $osgskin_show_packages | tr ' ' ,)
   # A mirror that lags behind is new enough.
   mmdebstrap --variant=apt --aptopt='Acquire::Check-Valid-Until "false"' --include="$packages" "$suite" "$root"
   touch "$root.made"
