@@ -87,6 +87,31 @@ TEST(SharedPoses, ChangeBackOnlyWhereItIsClearlySmaller) {
     EXPECT_LE(changes, 1);
 }
 
+TEST(SharedPoses, ChangeOnceForAStartAndOnceForAStop) {
+    Walk walk;
+    Camera camera(23.0); // about 65 pixels
+    double x = 0.0;
+    int changes = 0;
+    bool wasShared = true;
+    const auto go = [&](int frames, double speed) {
+        for (int i = 0; i < frames; ++i) {
+            walk.show({x += speed / 60.0, 0, 0}, 0.0, 1.0 / 60.0);
+            camera.see(*walk.transform);
+            const bool isShared = skinOf(*walk.transform).getDrawBackend() != nullptr;
+            if (isShared != wasShared) ++changes;
+            wasShared = isShared;
+        }
+    };
+    go(30, 0.0);
+    EXPECT_EQ(changes, 0);
+    go(120, 1.4);
+    EXPECT_EQ(changes, 2); // its own pose, and a shared one again
+    EXPECT_TRUE(wasShared);
+    go(180, 0.0);
+    EXPECT_EQ(changes, 4);
+    EXPECT_TRUE(wasShared);
+}
+
 TEST(SharedPoses, DepthCamerasDoNotCount) {
     Walk walk;
     const osg::ref_ptr<osg::Camera> shadow = new osg::Camera;

@@ -116,6 +116,7 @@ struct Walker::Walking {
     static constexpr float kNearly = 1.25f;   ///< and below which it prepares for that
     static constexpr float kBetween =
         0.5f; ///< the same, with strides that are between those of all
+    static constexpr double kSettles = 0.5; ///< seconds for which it counts as between afterwards
     static constexpr unsigned int kUnseen = 30; ///< updates without a cull, after which it does
     static constexpr std::size_t kNoPose = ~std::size_t{0};
 
@@ -132,7 +133,7 @@ struct Walker::Walking {
     }
 
     bool needsOwn() const;
-    bool chooseOwn(double from);
+    bool chooseOwn(double from, double dt);
     void leaveShared();
     void showOwn(const Gaits& gaits, double dt);
     void showShared();
@@ -149,6 +150,7 @@ struct Walker::Walking {
     std::atomic<bool> isAsked{false}; ///< for the own pose, since the last update
     std::atomic<bool> isOld{true};    ///< whether the skins lack the present pose
     float lastSize = 0.0f;
+    double unsettled = 0.0;     ///< seconds
     unsigned int unseen = 0;    ///< updates
     std::size_t pose = kNoPose; ///< the shared one that it shows
     osg::Matrixd place;
@@ -181,7 +183,8 @@ bool Walker::Walking::needsOwn() const {
 
 /// Whether it has a pose of its own in the next frame.
 /// \param from pixels of its height
-bool Walker::Walking::chooseOwn(double from) {
+/// \param dt seconds since the last call
+bool Walker::Walking::chooseOwn(double from, double dt) {
     const float seen = size.exchange(-1.0f);
     const bool asked = isAsked.exchange(false);
     unseen = seen < 0.0f ? unseen + 1 : 0;
@@ -190,7 +193,10 @@ bool Walker::Walking::chooseOwn(double from) {
     const auto least = static_cast<float>(from);
     gait.keepLevels(!asked && lastSize > 0.0f && lastSize < kNearly * least);
     if (asked || needsOwn()) return true;
-    const float share = gait.isBetween() ? kBetween : player ? kStaysOwn : 1.0f;
+    // A start or a stop passes all levels: it would change at each.
+    const bool isBetween = gait.isBetween() || (player && player->isStepping());
+    unsettled = isBetween ? kSettles : unsettled - dt;
+    const float share = unsettled > 0.0 ? kBetween : player ? kStaysOwn : 1.0f;
     return lastSize >= share * least && lastSize > 0.0f;
 }
 
@@ -299,7 +305,7 @@ void Walker::show(bool moves, double dt) {
     Walking& walking = *_walking;
     walking.hasMoved = walking.hasMoved || !walking.gait.isStill();
     const double from = getOwnPoseSize();
-    if (from > 0.0 && !walking.chooseOwn(from)) {
+    if (from > 0.0 && !walking.chooseOwn(from, dt)) {
         walking.player = nullptr;
         walking.showShared();
         return;
