@@ -12,7 +12,7 @@
 /// The ground of a recipe's picture.
 enum class Floor { Own, Plain, Shadowed };
 
-/// What else a recipe's picture needs; a sum of these.
+/// Flags of a recipe's picture, to be added up.
 enum Needs : unsigned {
     kNothing = 0,
     kWireframe = 1,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What Blender 5.2.2 exports, in world space, beside Blender's own vertices. tests/data/blender has
+// Exports of Blender 5.2.2, in world space, beside Blender's own vertices. tests/data/blender has
 // the script.
 #include "DrawnSkin.h"
 #include "SkinFiles.h"

@@ -255,7 +255,7 @@ void addMeshes(const GltfDocument& document, const std::vector<std::size_t>& ord
 void addAnimations(const GltfDocument& document, const std::vector<int>& indexOf,
                    SourceScene& scene);
 
-/// What the nodes of a VRM animation stand for that are no joints.
+/// Nodes of a VRM animation that are not joints: expressions and gaze.
 struct VrmAnimationNodes {
     std::map<std::size_t, std::string> expressions; ///< their names; x is the weight
     GltfIndex gaze;                                 ///< which rotates as the eyes look
