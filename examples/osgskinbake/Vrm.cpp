@@ -54,6 +54,15 @@ json jsonOf(const std::string& file) {
     return result.is_object() ? result : json();
 }
 
+/// Whether a VRM file has materials of its own kind of shading.
+bool hasToonShading(const json& file) {
+    for (const json& material : at(file, "materials"))
+        if (!at(at(material, "extensions"), "VRMC_materials_mtoon").is_null()) return true;
+    for (const json& material : at(at(at(file, "extensions"), "VRM"), "materialProperties"))
+        if (textAt(material, "shader") == "VRM/MToon") return true;
+    return false;
+}
+
 /// VRM 1's names of VRM 0's presets that have others.
 std::string presetOfFirst(const std::string& name) {
     static const std::map<std::string, std::string> kNames{{"joy", "happy"},
@@ -279,12 +288,14 @@ Vrm::Vrm(const osgSkin::Character& character) : _character(character), _toGltf(c
     addBones(missing);
     addFaceBones(at(at(second.is_object() ? second : first, "humanoid"), "humanBones"),
                  at(file, "nodes"));
-    if (missing.empty()) return;
-    _note = "not written as VRM, as the file lacks ";
-    for (const std::string& each : missing) _note += (&each == &missing[0] ? "" : ", ") + each;
-    _human = nullptr;
-    _expressions.clear();
-    _leftOut.clear();
+    if (!missing.empty()) {
+        _note = "not written as VRM, as the file lacks ";
+        for (const std::string& each : missing) _note += (&each == &missing[0] ? "" : ", ") + each;
+        _human = nullptr;
+        _expressions.clear();
+        _leftOut.clear();
+    }
+    if (hasToonShading(file)) _leftOut.emplace_back("toon shading (MToon)");
 }
 
 void Vrm::readSecond(const json& vrm) {
@@ -324,8 +335,7 @@ void Vrm::readFirst(const json& vrm) {
         addExpression(group, morph,
                       {isPreset, isPreset ? presetOfFirst(morph) : morph, json::object()});
     }
-    for (const char* name : {"firstPerson"})
-        if (!at(vrm, name).is_null()) _leftOut.emplace_back("firstPerson and lookAt");
+    if (!at(vrm, "firstPerson").is_null()) _leftOut.emplace_back("firstPerson and lookAt");
 }
 
 void Vrm::addExpression(const json& from, const std::string& morph, Expression expression) {

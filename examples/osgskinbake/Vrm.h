@@ -21,10 +21,10 @@ public:
 
     /// Whether the file says which joint is which part of a human (VRMC_vrm).
     bool isHuman() const { return !_human.is_null(); }
-    /// What was translated, or why isHuman() is false although the character's file says it; a
-    /// sentence without the file's name, or empty.
+    /// A sentence without the file's name: what was translated, or why isHuman() is false although
+    /// the file is a VRM. Empty if there is nothing to say.
     const std::string& note() const { return _note; }
-    /// What the character's file has and VRMC_vrm is written without; empty unless isHuman().
+    /// Parts of the character's VRM file that are not written.
     const std::vector<std::string>& leftOut() const { return _leftOut; }
     /// Whether a morph target is an expression, whose name is not to be another target's.
     bool isExpression(const std::string& morph) const { return _expressions.count(morph) > 0; }

@@ -209,6 +209,7 @@ TEST(RiggedVrm, TranslatesVrm0AndClaimsNoOtherLicence) {
             {"commercialUssageName", "Disallow"},
             {"licenseName", "CC_BY"}}},
           {"humanoid", {{"humanBones", bones}}},
+          {"materialProperties", {{{"shader", "VRM/MToon"}}}},
           {"blendShapeMaster",
            {{"blendShapeGroups",
              {{{"presetName", "joy"},
@@ -218,7 +219,9 @@ TEST(RiggedVrm, TranslatesVrm0AndClaimsNoOtherLicence) {
               {{"presetName", "unknown"},
                {"name", "smirk"},
                {"binds", {{{"mesh", 0}, {"index", 0}, {"weight", 50}}}}}}}}}}}};
-    test::expectContains(rig(figure, folder),
+    const std::string translated = rig(figure, folder);
+    test::expectContains(translated, "left out: toon shading (MToon)");
+    test::expectContains(translated,
                          "VRM 0 is written as VRM 1: its permissions, the licence \"CC_BY\" as "
                          "https://creativecommons.org/licenses/by/4.0/, and the names");
     const json vrm = GltfReference(folder + "/rigged.vrm").json["extensions"]["VRMC_vrm"];
@@ -234,6 +237,7 @@ TEST(RiggedVrm, TranslatesVrm0AndClaimsNoOtherLicence) {
     const std::string said = rig(figure, folder);
     test::expectContains(said, "not written as VRM, as the file lacks a licence's address");
     test::expectContains(said, "left out: which joint is which part of the body, which morph");
+    test::expectContains(said, "toon shading (MToon)");
     EXPECT_EQ(GltfReference(folder + "/rigged.vrm").json.count("extensions"), 0u);
 }
 

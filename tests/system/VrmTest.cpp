@@ -178,3 +178,21 @@ TEST(Vrm, AnimationsOfAFaceAlonePlay) {
     character.pose(character.motions.at(1), 0);
     EXPECT_EQ(osgSkin::getMorph(*character.root, "blink"), 0.0f) << "of the other motion";
 }
+
+TEST(Vrm, ExpressionsMayHaveNamesOfTheGaze) {
+    VrmFigure figure;
+    figure.addExpressions();
+    VrmAnimation named, both;
+    named.animateExpression("custom", "lookUp", 1.0);
+    both.animateExpression("custom", "lookUp", 1.0);
+    both.animateGaze(0.0, 27.0);
+    const test::Notices notices;
+    EXPECT_EQ(animated(figure, named).motions.size(), 1u);
+    EXPECT_TRUE(notices.say("1 expressions move no morph target of the body, \"lookUp\""))
+        << notices.text();
+    Character character = animated(figure, both);
+    character.pose(character.motions.at(0), 30);
+    const osg::Vec3d ahead = osg::Matrixd::transform3x3(
+        osg::Z_AXIS, osg::Matrixd(character.bone("leftEye")->getMatrixInSkeletonSpace()));
+    EXPECT_NEAR(osg::RadiansToDegrees(std::asin(ahead.y())), 3.0, 0.1);
+}

@@ -12,6 +12,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <osg/Quat>
 #include <osgAnimation/Channel>
 
@@ -72,7 +73,14 @@ void completeMorphs(const CharacterSource& source, std::vector<CharacterMotion>&
 }
 
 /// How far eyes turn that look 90 degrees away, as in most VRM files.
-constexpr double kEyeTurn = 10.0 * 3.14159265358979 / 180.0;
+const double kEyeTurn = glm::radians(10.0);
+constexpr const char* kLooks[] = {"lookLeft", "lookRight", "lookUp", "lookDown"};
+
+/// Whether a clip says how the eyes look; one of the names alone is any expression's.
+bool hasGaze(const Clip& clip) {
+    return std::all_of(std::begin(kLooks), std::end(kLooks),
+                       [&](const char* look) { return clip.morphs.count(look) != 0; });
+}
 
 /// Rotates the eyes as a motion looks, if the body has eyes.
 void turnEyes(const CharacterSource& source, Clip& clip) {
@@ -97,7 +105,7 @@ void turnEyes(const CharacterSource& source, Clip& clip) {
                 glm::angleAxis(turn("lookDown", "lookUp"), left);
         }
     }
-    for (const char* look : {"lookLeft", "lookRight", "lookUp", "lookDown"})
+    for (const char* look : kLooks)
         if (any) clip.morphs.erase(look);
 }
 
@@ -119,7 +127,7 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
             options.names = source.bind.names;
             options.up = entry.up;
             made.clip = retarget(motion, source.rest, options, &made.report);
-            if (made.clip.morphs.count("lookUp") != 0) turnEyes(source, made.clip);
+            if (hasGaze(made.clip)) turnEyes(source, made.clip);
             if (!made.clip.morphs.empty()) matchMorphs(source, entry.file, made.clip);
         };
         withFileContext(source.file, [&] { withFileContext(entry.file, make); });

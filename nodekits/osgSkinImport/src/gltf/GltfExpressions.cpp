@@ -27,7 +27,7 @@ bool isBinary(const json& expression) {
     return found != expression.end() && *found == true;
 }
 
-/// What a preset of VRM moves.
+/// The part of the face that a preset of VRM moves.
 ExpressionRules::Part partOf(const std::string& preset) {
     for (const char* name : {"blink", "blinkLeft", "blinkRight"})
         if (preset == name) return ExpressionRules::Part::Blink;

@@ -262,6 +262,8 @@ void sampleMorphs(const SourceAnimation& animation, const SampleGrid& grid, Moti
         sample([&](const Moment& at) { weights.push_back(valueAt<float>(track.weights, at)); });
     }
     if (animation.gaze.empty()) return;
+    for (const char* look : {"lookLeft", "lookRight", "lookUp", "lookDown"})
+        motion.morphs[look].clear(); // of expressions: the gaze counts
     sample([&](const Moment& at) {
         const glm::dquat q = glm::normalize(valueAt<glm::dquat>(animation.gaze, at));
         const glm::dvec3 ahead = q * glm::dvec3(0.0, 0.0, 1.0);

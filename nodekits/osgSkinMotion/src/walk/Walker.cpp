@@ -116,7 +116,7 @@ struct Walker::Walking {
     static constexpr float kNearly = 1.25f;   ///< and below which it prepares for that
     static constexpr float kBetween =
         0.5f; ///< the same, with strides that are between those of all
-    static constexpr double kSettles = 0.5; ///< seconds for which it counts as between afterwards
+    static constexpr double kSettles = 0.5;     ///< seconds for which it still counts so afterwards
     static constexpr unsigned int kUnseen = 30; ///< updates without a cull, after which it does
     static constexpr std::size_t kNoPose = ~std::size_t{0};
 
@@ -150,7 +150,7 @@ struct Walker::Walking {
     std::atomic<bool> isAsked{false}; ///< for the own pose, since the last update
     std::atomic<bool> isOld{true};    ///< whether the skins lack the present pose
     float lastSize = 0.0f;
-    double unsettled = 0.0;     ///< seconds
+    double unsettled = 0.0;     ///< seconds until strides count as settled
     unsigned int unseen = 0;    ///< updates
     std::size_t pose = kNoPose; ///< the shared one that it shows
     osg::Matrixd place;
