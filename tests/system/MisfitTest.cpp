@@ -2,6 +2,7 @@
 // Bodies whose skeleton is in another unit, has another up axis or another position.
 #include "Command.h"
 #include "ExpectContains.h"
+#include "GltfBuilder.h"
 #include "Notices.h"
 
 #include <osgSkinCharacter/LoadCharacter>
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -100,6 +102,30 @@ TEST(Misfit, WarnsAboutPaintedBodies) {
     test::expectContains(misfitsOf(osg::Matrixd::translate(5, 0, 0), {}, true),
                          " joints lie outside the skin, expected");
     EXPECT_EQ(misfitsOf(osg::Matrixd(), {}, true), "");
+}
+
+/// As a shirt, with the skeleton of the whole figure.
+TEST(Misfit, DoesNotWarnAboutPartOfBody) {
+    const osg::Matrixd shirt = osg::Matrixd::scale(0.35, 0.5, 0.8);
+    EXPECT_EQ(misfitsOf(shirt * osg::Matrixd::translate(0, 0.75, 0), {}, true), "");
+    test::expectContains(misfitsOf(shirt * osg::Matrixd::translate(0, 1.75, 0), {}, true),
+                         " joints lie outside the skin, expected");
+}
+
+/// The face's node is its only joint, and may be in the neck.
+TEST(Misfit, DoesNotWarnAboutFacesWithoutJoints) {
+    test::GltfColumn face;
+    face.json.erase("skins");
+    face.json["nodes"][face.meshNode].erase("skin");
+    face.json["nodes"][face.meshNode]["translation"] = {0, -5, 0};
+    for (double& place : face.places) place += 5.0;
+    face.attributes() = {{"POSITION", face.accessor("VEC3", face.places)}};
+    face.json["meshes"][0]["primitives"][0]["targets"] = {
+        {{"POSITION", face.accessor("VEC3", std::vector<double>(face.places.size(), 0.1))}}};
+    face.animate("talk", face.meshNode, "weights", {0.0, 1.0}, {0.0, 1.0});
+    const test::Notices notices;
+    const osgSkin::Character character = osgSkin::loadCharacter(face.save("face.gltf"));
+    EXPECT_EQ(notices.text().find("outside"), std::string::npos) << notices.text();
 }
 
 TEST(Misfit, DoesNotCompareLengthsOfCoincidentJoints) {

@@ -70,6 +70,9 @@ constexpr std::size_t kFewJoints = 3; ///< fewer do not tell a body's size
 /// Distance of joints from the body, in its lengths, that is tolerated: in an open jacket's sleeve.
 constexpr double kRoom = 0.05;
 
+/// Length of a part of a body, in lengths of the skeleton: less may be another unit, as feet are.
+constexpr double kMinPart = 0.45, kMaxPart = 0.8;
+
 /// Rounding of vertices, relative to the body's size, that is not visible.
 constexpr double kMaxRounding = 1e-4;
 
@@ -81,6 +84,17 @@ osg::BoundingBoxd boxOf(const SkinMesh& mesh) {
     osg::BoundingBoxd result;
     for (const glm::dvec3& position : mesh.positions) result.expandBy(toOsg(position));
     return result;
+}
+
+/// Whether a body can be a part of the skeleton's figure, as a shirt is: joints lie elsewhere, too.
+bool isPart(const osg::BoundingBoxd& body, const osg::BoundingBoxd& skeleton) {
+    const double ratio = lengthOf(body) / lengthOf(skeleton);
+    const double room = kRoom * lengthOf(skeleton);
+    for (int axis = 0; axis < 3; ++axis)
+        if (body._min[axis] < skeleton._min[axis] - room ||
+            body._max[axis] > skeleton._max[axis] + room)
+            return false;
+    return ratio > kMinPart && ratio < kMaxPart;
 }
 
 /// \param joints number of joints
@@ -97,7 +111,7 @@ void warnUnitMismatch(CharacterSource& source, const osg::BoundingBoxd& body,
     if (ratio > maxRatio || ratio < 1.0 / maxRatio)
         note << "the body is " << ratio
              << " times as long as the skeleton, expected both in the same unit";
-    else if (outside > joints - outside)
+    else if (outside > joints - outside && !(outside < joints && isPart(body, skeleton)))
         note << outside << " of " << joints
              << " joints lie outside the skin, expected the skeleton in the body's pose, unit "
                 "and place";
@@ -112,6 +126,7 @@ void warnUnitMismatch(CharacterSource& source, const osg::BoundingBoxd& body,
 /// \param source with body and rest skeleton; gets a note
 /// \param report of its binding by regions
 void warnUnitMismatch(CharacterSource& source, const BindReport& report) {
+    if (source.skeleton && source.rest.joints.size() == 1) return; // a model without bones
     osg::BoundingBoxd skeleton;
     if (source.rest.joints.size() > 1)
         for (const RestJoint& joint : source.rest.joints) {
@@ -144,7 +159,7 @@ void warnUnitMismatch(CharacterSource& source, const VertexWeights& weights) {
                 break;
             }
     }
-    if (joints < kFewJoints) skeleton.init();
+    if (joints < kFewJoints) return; // a face's one joint may be in its neck
     warnUnitMismatch(source, body, skeleton, joints, kMaxPaintedRatio, outside);
 }
 
