@@ -45,6 +45,18 @@ std::string notesOf(GltfColumn column) {
 
 } // namespace
 
+/// As where a program's armature is scaled as an object.
+TEST(UnevenGltf, NamesTheObjectAboveTheSkeleton) {
+    GltfColumn column = uneven(false, 1.0);
+    const std::size_t above =
+        column.node({{"name", "Armature"}, {"scale", {1, 2, 1}}, {"children", {column.joints[0]}}});
+    column.json["scenes"][0]["nodes"] = {above, column.meshNode};
+    const std::string root = column.json["nodes"][column.joints[0]]["name"];
+    test::expectContains(notesOf(column), "the armature or another object above joint \"" + root +
+                                              "\" (apply its scale in the program that made the "
+                                              "file)");
+}
+
 TEST(UnevenGltf, WarnsAboutShear) {
     test::expectContains(notesOf(uneven(false, 2.0)),
                          "bone \"top\" in the clip \"turn\" scaled non-uniformly");

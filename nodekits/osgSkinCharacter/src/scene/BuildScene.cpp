@@ -271,13 +271,23 @@ osg::ref_ptr<osg::MatrixTransform> makeUpright(const Character& character) {
     return upright;
 }
 
+/// What findNonUniformScale() found, where that is the bone that stands for the nodes above the
+/// topmost joint: those are called something else in the file.
+std::string inUsersWords(const std::string& found) {
+    const std::size_t end = found.find(kAboveRoot + std::string("\""));
+    const std::size_t begin = found.find('"');
+    if (end == std::string::npos || begin > end) return found;
+    return "the armature or another object above joint " + found.substr(begin, end - begin) +
+           "\" (apply its scale in the program that made the file)";
+}
+
 /// A rigged model's own animations, as the character's motions.
 void takeAnimations(const CharacterSource& source, Character& character) {
     const std::vector<std::string> bones =
         findNonUniformScale(*character.skeleton, source.animations);
     if (!bones.empty())
         warn(character.notes,
-             character.file + ": " + bones.front() +
+             character.file + ": " + inUsersWords(bones.front()) +
                  (bones.size() > 1 ? " and " + std::to_string(bones.size() - 1) + " more" : "") +
                  " scaled non-uniformly, mirrored or to nothing, which the skin does not follow");
     for (const auto& animation : source.animations)
