@@ -12,6 +12,8 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <string>
+#include <vector>
 
 using namespace osgSkin;
 
@@ -313,6 +315,47 @@ TEST(Regions, FollowTheNearestBoneWithoutJointsInside) {
             EXPECT_EQ(binding.regions[v], height < 3.0 ? 0u : 1u) << "at " << height;
         }
     }
+}
+
+TEST(Regions, ChainThatRunsBackPastTheHeadHasItsSkin) {
+    RestSkeleton snake;
+    shapes::addJoint(snake, "root", "", {0, 37.5, 0});
+    shapes::addJoint(snake, "head", "root", {0, 38.4, 0});
+    shapes::addJoint(snake, "head_tip", "head", {0, 39.7, 0});
+    for (int k = 1; k <= 20; ++k)
+        shapes::addJoint(snake, "tail" + std::to_string(k),
+                         k == 1 ? "head" : "tail" + std::to_string(k - 1),
+                         {0, 37.67 - 1.8 * (k - 1), 0});
+    BindReport report;
+    const SkinMesh mesh = shapes::cylinder(40.0);
+    const Binding binding = bind(mesh, snake, {}, &report);
+    expectSound(binding);
+    for (int k = 1; k <= 20; ++k) {
+        const BindReport::Region* const ring = regionOf(report, "tail" + std::to_string(k));
+        ASSERT_TRUE(ring != nullptr) << k;
+        EXPECT_GE(ring->vertices, 16u) << k;
+        EXPECT_LE(ring->vertices, mesh.positions.size() / 10) << k;
+    }
+    EXPECT_EQ(report.bareJoints, std::vector<std::string>());
+}
+
+/// Each of its bones is short.
+TEST(Regions, ReportsChainWithoutSkin) {
+    RestSkeleton skeleton;
+    shapes::addJoint(skeleton, "root", "", {0, 0.5, 0});
+    const glm::dvec3 places[] = {{0, 1, 0}, {0.5, 1, 0}, {-0.5, 1, 0}, {0, 1, 0.5}, {0, 1, -0.5}};
+    for (int chain = 0; chain < 5; ++chain)
+        for (int k = 0; k < 10; ++k) {
+            const std::string name = std::string(1, char('a' + chain));
+            shapes::addJoint(skeleton, name + std::to_string(k),
+                             k == 0 ? "root" : name + std::to_string(k - 1),
+                             places[chain] + glm::dvec3(0, 0.5 * k, 0));
+        }
+    BindReport report;
+    bind(shapes::cylinder(), skeleton, {}, &report);
+    EXPECT_NE(std::find(report.bareJoints.begin(), report.bareJoints.end(), "a5"),
+              report.bareJoints.end())
+        << report.text();
 }
 
 TEST(Regions, ReportHasCounts) {

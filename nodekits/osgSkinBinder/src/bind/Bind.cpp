@@ -63,7 +63,8 @@ void addRatios(const WeldedMesh& mesh, const Regions& regions, JointFields&& ben
         static_cast<double>(partial) / static_cast<double>(mesh.weldedOf.size());
 }
 
-/// A bone at least this long, over the mesh's size, is reported if its region is empty.
+/// A bone, or a chain of them, at least this long, over the mesh's size, is reported if its regions
+/// are empty.
 constexpr double kLimbSize = 0.08;
 
 void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
@@ -76,14 +77,16 @@ void reportRegions(const RestSkeleton& skeleton, const std::vector<PlannedJoint>
         all[owner].seeds += regions.seeds[j];
     }
     for (const std::uint32_t joint : regions.jointOf) ++all[joint].vertices;
+    std::vector<double> bare(joints.size(), 0.0); // length of a chain without skin, from its top
     for (std::size_t j = 0; j < joints.size(); ++j) {
         if (!joints[j].holdsRegion() && all[j].vertices == 0) continue;
         all[j].joint = skeleton.joints[j].name;
         report.regions.push_back(all[j]);
         if (all[j].vertices > 0) continue;
         report.notes.push_back("region of joint \"" + all[j].joint + "\" is empty");
-        if (j > 0 && !joints[j].samples.empty() && joints[j].boneLength > kLimbSize * size)
-            report.bareJoints.push_back(all[j].joint);
+        if (j == 0 || joints[j].samples.empty()) continue;
+        bare[j] = joints[j].boneLength + bare[static_cast<std::size_t>(joints[j].parent)];
+        if (bare[j] > kLimbSize * size) report.bareJoints.push_back(all[j].joint);
     }
     report.rejectedEdges = regions.rejectedEdges;
 }

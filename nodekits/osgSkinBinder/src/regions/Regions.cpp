@@ -299,25 +299,31 @@ void extendDigits(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joint
 
 /// Makes `beyond` all that a joint has of its shell; the rest of its skin there goes to the
 /// adjacent regions. Changes nothing on a shell that belongs to the joint wholly or not at all.
-void giveBeyond(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-                std::uint32_t joint, std::vector<std::uint32_t>& jointOf) {
+///
+/// Where most of that shell's other skin would go, a chain runs back past the extremity, as a
+/// snake's tail that hangs on its head: clears `beyond`.
+void giveBeyond(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints, std::uint32_t joint,
+                std::vector<std::uint32_t>& jointOf) {
     const std::vector<std::uint32_t>& beyond = joints[joint].beyond;
     const std::vector<bool> isBelow = subtreeOf(joints, joint);
     const std::uint32_t shell = mesh.shellOf[beyond.front()];
-    bool hasOwn = false, hasOther = false;
-    for (std::size_t v = 0; v < jointOf.size(); ++v)
-        if (mesh.shellOf[v] == shell) (isBelow[jointOf[v]] ? hasOwn : hasOther) = true;
-    if (!hasOwn || !hasOther) return;
+    const auto isToGo = [&](std::size_t v) {
+        return mesh.shellOf[v] == shell && isBelow[jointOf[v]] &&
+               !std::binary_search(beyond.begin(), beyond.end(), v);
+    };
+    std::size_t own = 0, rest = 0, toGo = 0;
+    for (std::size_t v = 0; v < jointOf.size(); ++v) {
+        if (mesh.shellOf[v] == shell) ++(isBelow[jointOf[v]] ? own : rest);
+        toGo += isToGo(v);
+    }
+    if (own == 0 || rest == 0) return;
+    if (toGo > rest) return joints[joint].beyond.clear();
 
     std::vector<std::uint32_t> others = jointOf; // the regions outside the extremity
     for (const std::uint32_t v : beyond) {
         others[v] = Regions::kNone;
         if (!isBelow[jointOf[v]]) jointOf[v] = joint;
     }
-    const auto isToGo = [&](std::size_t v) {
-        return mesh.shellOf[v] == shell && isBelow[jointOf[v]] &&
-               !std::binary_search(beyond.begin(), beyond.end(), v);
-    };
     for (std::size_t v = 0; v < jointOf.size(); ++v)
         if (isToGo(v)) others[v] = Regions::kNone;
     spreadRegions(mesh, others);
@@ -335,7 +341,7 @@ bool facesLimb(const PlannedJoint& limb, double radius, const glm::dvec3& positi
     return glm::length(off) > kFacing * radius && glm::dot(normal, off) < 0.0;
 }
 
-Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+Regions findRegions(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints,
                     const Progress& progress) {
     const auto tell = [&progress](const char* what, double fraction) {
         if (progress) progress({what, fraction});

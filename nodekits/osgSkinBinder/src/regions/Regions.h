@@ -42,9 +42,10 @@ void findExtremities(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints);
 /// need (shells without a Delaunay edge, islands).
 ///
 /// \param mesh the skin
-/// \param joints of planJoints()
+/// \param joints of findExtremities(); `beyond` is cleared where most skin of the joint's chains is
+///        on the near side
 /// \param progress is called at the start of each step; may be empty
-Regions findRegions(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
+Regions findRegions(const WeldedMesh& mesh, std::vector<PlannedJoint>& joints,
                     const Progress& progress);
 
 /// True for skin that faces a limb's bone across the air, as the side of the torso faces an arm
