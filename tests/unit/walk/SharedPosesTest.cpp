@@ -67,6 +67,38 @@ TEST(SharedPoses, AreNotDrawnForNearOnes) {
     EXPECT_FALSE(isShared(away));
 }
 
+TEST(SharedPoses, TakeThePlaceOfTheOwnVertices) {
+    Walk walk;
+    Camera camera(kNear), away(kFar);
+    osg::observer_ptr<osg::Drawable> own;
+    for (int i = 0; i < 2; ++i) {
+        walk.show({0.03 * walk.frame, 0, 0}, 0.0, 0.02);
+        own = const_cast<osg::Drawable*>(*camera.see(*walk.transform).begin());
+    }
+    EXPECT_EQ(own.get(), skinOf(*walk.transform).getDeformedGeometry());
+    camera.see(*new osg::Group);
+    for (int i = 0; i < 3; ++i) {
+        walk.show({0.03 * walk.frame, 0, 0}, 0.0, 0.02);
+        away.see(*walk.transform);
+    }
+    EXPECT_FALSE(own.valid());
+}
+
+TEST(SharedPoses, UpdatesReachWhatIsBelowTheWalker) {
+    struct Count : osg::NodeCallback {
+        void operator()(osg::Node*, osg::NodeVisitor*) override { ++frames; }
+        int frames = 0;
+    };
+    Walk walk;
+    walk.show({0, 0, 0}, 0.0, 0.02);
+    const osg::ref_ptr<Count> count = new Count;
+    const osg::ref_ptr<osg::Group> hat = new osg::Group;
+    hat->setUpdateCallback(count);
+    walk.walker->addChild(hat);
+    walk.show({0.03, 0, 0}, 0.0, 0.02);
+    EXPECT_EQ(count->frames, 1);
+}
+
 TEST(SharedPoses, ChangeBackOnlyWhereItIsClearlySmaller) {
     Walk walk;
     walk.show({0, 0, 0}, 0.0, 0.02);

@@ -115,6 +115,11 @@ osg::ref_ptr<Array> stream(const osg::Array* source, std::size_t count,
     const auto* same = dynamic_cast<const Array*>(source);
     if (same && same->size() == count) array->asVector() = same->asVector();
     if (source) array->setNormalize(source->getNormalize());
+    // Without vertex array objects OSG takes an array for the one that it has drawn before if
+    // address and count of changes are alike. Memory that was freed is used again, so counts begin
+    // far from each other.
+    static std::atomic<unsigned int> firstCount{0};
+    array->setModifiedCount(firstCount += 0x9e3779b9u);
     array->setVertexBufferObject(&vbo);
     return array;
 }
@@ -289,6 +294,7 @@ void DeformableSkin::setDrawBackend(DrawBackend* drawer) {
     uploadAgain();
     _backend = drawer;
     if (!_backend || !_model) return;
+    forgetBuffers();
     _backend->skinChanged(*this);
     _backend->poseChanged(*this);
 }
