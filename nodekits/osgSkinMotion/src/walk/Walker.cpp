@@ -162,6 +162,7 @@ struct Walker::Walking {
     bool isTold = false;      ///< by setMotion()
     bool isShared = false;    ///< by several transforms
     bool hasMoved = false;
+    bool hasBoundsOfAll = false; ///< its skins have those of all poses
 
     // Of frames without an update or event traversal; several threads may cull.
     std::mutex mutex;
@@ -231,9 +232,11 @@ void Walker::Walking::showShared() {
     if (nearest == pose) return;
     pose = nearest;
     const SharedPoses::Shown& shown = shared->shown(pose);
+    const bool hadBounds = std::exchange(hasBoundsOfAll, hasMoved);
     for (std::size_t i = 0; i < skins.size(); ++i) {
         standIns[i]->geometry = shown.skins[i];
-        if (skins[i]->getDrawBackend() != standIns[i]) skins[i]->setDrawBackend(standIns[i]);
+        if (skins[i]->getDrawBackend() == standIns[i] && hadBounds == hasMoved) continue;
+        skins[i]->setDrawBackend(standIns[i]);
         skins[i]->setPose(skins[i]->getPose(), bounds()[i]);
     }
     for (const Rigid& rigid : rigids) rigid.transform->setMatrix(shown.joints[rigid.joint]);
@@ -444,6 +447,11 @@ void Walker::traverse(osg::NodeVisitor& nv) {
         measure(nv);
     } else if (_walking && type != osg::NodeVisitor::COLLECT_OCCLUDER_VISITOR)
         poseNow();
+    // One is its own. Updates of far crowds are as long as the memory that they touch.
+    if (type == osg::NodeVisitor::UPDATE_VISITOR && getNumChildrenRequiringUpdateTraversal() < 2)
+        return;
+    if (type == osg::NodeVisitor::EVENT_VISITOR && getNumChildrenRequiringEventTraversal() < 2)
+        return;
     osg::Group::traverse(nv);
 }
 
