@@ -453,6 +453,12 @@ TEST(GltfDialect, ReadsSkeletonOfNodesAlone) {
     ASSERT_EQ(skeleton.joints.size(), 3u);
     EXPECT_EQ(skeleton.joints[2].name, "top");
     EXPECT_EQ(skeleton.joints[2].centre, glm::dvec3(0, 2, 0));
+    // The same bones count where a clip moves one of them.
+    column.json.erase("buffers"); // of the file without a clip
+    column.animate("bend", column.joints[1], "rotation", {0.0, 1.0}, GltfColumn::turns({0, 60}));
+    const auto moved = osgSkin::importSkeleton(column.save("bent.gltf"));
+    ASSERT_EQ(moved.joints.size(), 3u);
+    EXPECT_EQ(moved.joints[2].name, "top");
 }
 
 /// A talking head.

@@ -179,7 +179,8 @@ std::vector<int> addNodes(const GltfDocument& document, const std::vector<std::s
     std::vector<int> indexOf(document.nodes.size(), -1);
     std::vector<std::size_t> open(roots.rbegin(), roots.rend());
     int above = -1;
-    if (open.size() != 1) above = scene.addNode(rootName, -1, glm::dmat4(1.0));
+    scene.isRootMade = open.size() != 1;
+    if (scene.isRootMade) above = scene.addNode(rootName, -1, glm::dmat4(1.0));
     while (!open.empty()) {
         const std::size_t n = open.back();
         const GltfNode& node = document.nodes[n];

@@ -139,7 +139,25 @@ std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind
     if (bones.empty()) {
         for (const SourceNode* node : bind.nodes()) // a VRM animation may move an arm alone
             if (!node->role.empty()) moving.insert(node);
-        return moving.empty() ? nodesOfSkeleton(bind) : moving;
+        const std::set<const SourceNode*> all = nodesOfSkeleton(bind);
+        if (moving.empty()) return all;
+        // All bones of an armature count, whichever its clips move.
+        std::set<const SourceNode*> tops;
+        for (const SourceNode* node : moving) {
+            for (const SourceNode* above = bind.parent(*node);
+                 above != nullptr && (bind.parent(*above) != nullptr || !scene.isRootMade);
+                 above = bind.parent(*node))
+                node = above;
+            tops.insert(node);
+        }
+        bool isWhole = true; // but for its top, which may be the armature itself
+        for (const SourceNode* node : all) {
+            if (!isBelow(node, tops, bind) || isEndNode(*node)) continue;
+            bones.insert(node);
+            isWhole = isWhole && (moving.count(node) != 0 || tops.count(node) != 0);
+        }
+        if (!isWhole) moving.merge(bones);
+        return moving;
     }
     for (const Constraint& constraint : scene.constraints)
         for (const std::string& name : {constraint.joint.name, constraint.source.name})

@@ -120,6 +120,7 @@ struct SourceAnimation {
 /// Copies share the meshes, images and animations.
 struct SourceScene {
     std::vector<SourceNode> nodes; ///< the first is the root
+    bool isRootMade = true;        ///< it stands for the scene and is none of the file's nodes
     std::vector<std::shared_ptr<const SourceMesh>> meshes;
     std::vector<SourceMaterial> materials; ///< at least one
     std::vector<std::shared_ptr<const SourceImage>> images;
