@@ -5,11 +5,15 @@
 #include "assimp/FbxDocument.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
 
-/// A curve of an FBX animation: one number over time, in seconds.
+constexpr double kSampleStep = 1.0 / 30.0; ///< seconds between samples of curves
+constexpr double kDenseKeys = 1.0 / 23.0;  ///< closer ones are nearly straight between
+
+/// A curve of an FBX or Collada animation: one number over time, in seconds.
 class FbxCurve {
 public:
     struct Key {
@@ -26,6 +30,7 @@ public:
 
     FbxCurve() = default;
     explicit FbxCurve(const FbxRecord& curve);
+    explicit FbxCurve(std::vector<Key> keys) : _keys(std::move(keys)) {}
 
     const std::vector<Key>& keys() const { return _keys; }
 

@@ -25,8 +25,6 @@
 namespace osgSkin {
 namespace {
 
-constexpr double kStep = 1.0 / 30.0;          ///< seconds between samples of curves
-constexpr double kDense = 1.0 / 23.0;         ///< keys that are closer are nearly straight between
 constexpr double kHold = FbxStack::kRounding; ///< before a step: the last sample of the old value
 constexpr double kTolerance = 1e-6;
 
@@ -37,7 +35,7 @@ bool isCurved(const FbxCurve& curve) {
         const bool isStep = keys[k].kind == FbxCurve::Key::Kind::Constant ||
                             keys[k].kind == FbxCurve::Key::Kind::ConstantNext;
         if (isStep && keys[k].value != keys[k + 1].value) return true;
-        if (keys[k + 1].time - keys[k].time > kDense && curve.isCurved(k)) return true;
+        if (keys[k + 1].time - keys[k].time > kDenseKeys && curve.isCurved(k)) return true;
     }
     return false;
 }
@@ -51,7 +49,7 @@ bool isFarApart(const FbxCurves& rotation) {
     if (times.empty()) return false;
     for (auto time = times.begin(); std::next(time) != times.end(); ++time) {
         const double next = *std::next(time);
-        if (next - *time <= kDense) continue;
+        if (next - *time <= kDenseKeys) continue;
         const glm::dvec3 change = glm::abs(rotation.at(next) - rotation.at(*time));
         int axes = 0;
         for (int axis = 0; axis < 3; ++axis) axes += change[axis] > kSmall;
@@ -265,7 +263,7 @@ private:
         keys.reserve(result.size());
         for (const auto& [time, source] : result) keys.push_back(time);
         for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
-            const double pieces = std::ceil((keys[k + 1] - keys[k]) / kStep - 1e-6);
+            const double pieces = std::ceil((keys[k + 1] - keys[k]) / kSampleStep - 1e-6);
             if (!(pieces < double(_samples)))
                 failFile(_path, "clip " + inQuotes(stack.name) + " lasts " +
                                     std::to_string(keys[k + 1] - keys[k]) +
