@@ -276,6 +276,26 @@ TEST(FbxMotion, SegmentScaleIsCompensated) {
     expectMoved(rig, "top", 0.5, moved(0, 15, 0));
 }
 
+/// Nodes of a scene inherit scale by matrices.
+TEST(FbxMotion, OtherInheritanceOfUnevenScaleIsReported) {
+    const auto noticesOf = [](double height, int type) {
+        FbxColumn column;
+        column.set("base", "Lcl Scaling", {1, height, 1});
+        for (const char* joint : {"middle", "top"}) column.set(joint, "InheritType", type);
+        column.move(2, 'R', 'Z', {{0, 0}, {1, 60}});
+        const test::Notices notices;
+        column.read();
+        return notices.text();
+    };
+    for (const int other : {0, 2})
+        EXPECT_NE(noticesOf(1.5, other).find("uneven scale above \"middle\" and 1 more"),
+                  std::string::npos)
+            << other;
+    EXPECT_EQ(noticesOf(1.5, 1).find("uneven"), std::string::npos);
+    for (const int any : {0, 1, 2})
+        EXPECT_EQ(noticesOf(1.0, any).find("uneven"), std::string::npos) << any;
+}
+
 /// 3ds Max's object offset moves the mesh, whose node stands elsewhere.
 TEST(FbxMotion, GeometricTransformsPlaceTheMesh) {
     FbxColumn column;

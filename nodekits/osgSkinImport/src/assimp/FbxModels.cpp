@@ -82,6 +82,7 @@ FbxModel::FbxModel(const FbxRecord& object)
       scalingOffset(vectorOf(object, "ScalingOffset", glm::dvec3(0.0))),
       scalingPivot(vectorOf(object, "ScalingPivot", glm::dvec3(0.0))),
       ignoresParentsScale(numberOf(object, "InheritType", 1) == 2),
+      inheritsAsNode(numberOf(object, "InheritType", 1) == 1),
       geometric(matrixOf(vectorOf(object, "GeometricTranslation", glm::dvec3(0.0)),
                          rotationBy(vectorOf(object, "GeometricRotation", glm::dvec3(0.0)), 0),
                          vectorOf(object, "GeometricScaling", glm::dvec3(1.0)))) {

@@ -51,8 +51,9 @@ struct FbxModel {
     std::string name;
     FbxLocal own;
     glm::dvec3 rotationOffset, rotationPivot, scalingOffset, scalingPivot;
-    bool ignoresParentsScale;
-    glm::dmat4 geometric; ///< from a mesh to the model's frame
+    bool ignoresParentsScale; ///< FBX's inheritance "Rrs"
+    bool inheritsAsNode;      ///< "RSrs": the product of matrices; else scale follows all rotations
+    glm::dmat4 geometric;     ///< from a mesh to the model's frame
     int order = 0;
     glm::dquat before{1.0, 0.0, 0.0, 0.0}, after{1.0, 0.0, 0.0, 0.0};
     const FbxBinds* binds = nullptr; ///< of the joints of its mesh's skin; null: none

@@ -27,6 +27,7 @@ namespace {
 
 constexpr double kHold = FbxStack::kRounding; ///< before a step: the last sample of the old value
 constexpr double kTolerance = 1e-6;
+constexpr double kUneven = 1e-3; ///< of scale that is visible
 
 /// Whether straight lines between the keys, and shortest rotations, are not what the file says.
 bool isCurved(const FbxCurve& curve) {
@@ -69,14 +70,23 @@ public:
         for (std::size_t a = 0; a < _scene.animations.size(); ++a)
             _unused.emplace(_scene.animations[a]->name, a);
         _isFound.resize(_scene.nodes.size(), false);
-        findNodes(_document.roots, 0);
+        findNodes(_document.roots, 0, false);
+        if (!_apart.empty())
+            warn(_path,
+                 "the uneven scale above " + inQuotes(_apart.front()) +
+                     (_apart.size() > 1 ? " and " + std::to_string(_apart.size() - 1) + " more"
+                                        : "") +
+                     " is inherited by another rule in the file (InheritType RrSs or Rrs) "
+                     "than here, where it shears: apply the scale in the program that made "
+                     "the file");
         for (FbxStack& stack : _document.stacks) correct(stack);
         correctRest();
     }
 
 private:
     /// Finds the models' nodes: Assimp appends a counter to names that are not unique.
-    void findNodes(const std::vector<FbxModel*>& models, int above) {
+    /// \param isUneven whether what is above is scaled unevenly
+    void findNodes(const std::vector<FbxModel*>& models, int above, bool isUneven) {
         constexpr std::size_t kMaxDigits = 10; // of a counter
         struct Nodes {
             std::vector<int> all; ///< in the order of the file
@@ -99,7 +109,12 @@ private:
             if (nodes.next == nodes.all.size()) continue;
             model->node = nodes.all[nodes.next];
             _isFound[static_cast<std::size_t>(model->node)] = true;
-            findNodes(model->children, model->node);
+            if (isUneven && !model->inheritsAsNode) _apart.push_back(model->name);
+            const glm::dvec3& scale = model->own[Scaling];
+            findNodes(model->children, model->node,
+                      isUneven || std::max({scale.x, scale.y, scale.z}) -
+                                          std::min({scale.x, scale.y, scale.z}) >
+                                      kUneven);
         }
     }
 
@@ -373,6 +388,7 @@ private:
     const std::string& _path;
     SourceScene& _scene;
     std::vector<bool> _isFound;                      ///< [node]
+    std::vector<std::string> _apart;                 ///< models that inherit uneven scale otherwise
     std::size_t _samples;                            ///< how many more may be added
     std::multimap<std::string, std::size_t> _unused; ///< animations without a stack, by name
 };
