@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -482,4 +483,18 @@ TEST(FbxMorphs, ReadsShapes) {
     EXPECT_EQ(keysOf(*rig.animations[0], "tall"),
               (FloatKeys{{0.0, 0.0f}, {0.5, 1.0f}, {1.0, 0.5f}}));
     EXPECT_TRUE(keysOf(*rig.animations[0], "wide").empty());
+}
+
+/// A second square has shapes of the same names, and a curve of its own.
+TEST(FbxMorphs, MeshesMoveByTheirOwnCurves) {
+    const ImportedRig rig = osgSkin::importRig(testData("rig/two_shapes.fbx"));
+    ASSERT_EQ(rig.animations.size(), 1u);
+    const std::vector<std::string> all = namesOf(rig.body);
+    const std::set<std::string> names(all.begin(), all.end());
+    EXPECT_EQ(names.size(), 3u) << "no curve moves the shapes \"wide\", so they are one";
+    std::set<float> middles;
+    for (const std::string& name : names)
+        for (const auto& [time, weight] : keysOf(*rig.animations[0], name))
+            if (time == 0.5) middles.insert(weight);
+    EXPECT_EQ(middles, (std::set<float>{0.9f, 1.0f}));
 }
