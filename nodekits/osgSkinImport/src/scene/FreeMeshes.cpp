@@ -157,9 +157,10 @@ void followJoint(const SourceNode& joint, std::size_t node, std::size_t& mesh, S
 
 void warnOfSome(const std::string& path, const std::set<std::string>& names,
                 const std::string& what) {
-    if (!names.empty())
-        warn(path,
-             std::to_string(names.size()) + what + ", " + inQuotes(*names.begin()) + " among them");
+    if (names.empty()) return;
+    const std::string more =
+        names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : "";
+    warn(path, what + ": " + inQuotes(*names.begin()) + more);
 }
 
 } // namespace
@@ -206,10 +207,11 @@ void bindFreeMeshes(SourceScene& scene, const std::string& path) {
         }
         node.meshes = std::move(kept);
     }
-    warnOfSome(path, leftOut, " objects beside the figure are left out");
-    warnOfSome(path, apart,
-               " objects are neither skinned nor parented to a joint; they move as their own nodes "
-               "do in the file's clips");
+    warnOfSome(path, leftOut, "objects beside the figure are left out");
+    warnOfSome(
+        path, apart,
+        "objects that are neither skinned nor parented to a joint move as their own nodes do "
+        "in the file's clips");
 }
 
 bool bindFace(SourceScene& scene) {
