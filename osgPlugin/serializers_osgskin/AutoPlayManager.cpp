@@ -39,7 +39,13 @@ bool checkClips(const osgSkin::AutoPlayManager& manager) {
 bool writeClips(osgDB::OutputStream& os, const osgSkin::AutoPlayManager& manager) {
     const AnimationList all = animationsOf(manager);
     const std::vector<std::uint32_t> words = osgSkin::packAnimations(all);
-    const AnimationList packed = osgSkin::unpackAnimations(words);
+    AnimationList packed;
+    try {
+        packed = osgSkin::unpackAnimations(words);
+    } catch (const std::exception& error) { // such a file would be refused
+        os.throwException(std::string("osgSkin: ") + error.what());
+        return false;
+    }
     os << os.BEGIN_BRACKET << std::endl;
     writeWords(os, words);
     for (std::size_t i = 0; i < all.size(); ++i)

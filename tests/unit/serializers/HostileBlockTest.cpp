@@ -4,6 +4,7 @@
 #include "SlopedTube.h"
 #include "SomeCorrectives.h"
 #include "Tube.h"
+#include "serialize/AnimationBlock.h"
 #include "serialize/SkinModelBlock.h"
 
 #include <osgSkin/Error>
@@ -11,8 +12,10 @@
 #include <osgSkin/PoseBounds>
 
 #include <gtest/gtest.h>
+#include <osgAnimation/Channel>
 
 #include <functional>
+#include <limits>
 #include <ostream>
 #include <random>
 
@@ -150,4 +153,34 @@ TEST(HostileBlockAtRandom, NeverCrashes) {
         } catch (const osgSkin::Error&) { // the expected exception
         }
     }
+}
+
+/// Packs a clip with one key.
+template <typename Channel, typename Value>
+Words clipOf(const Value& value) {
+    const osg::ref_ptr<Channel> channel = new Channel;
+    channel->getOrCreateSampler()->getOrCreateKeyframeContainer()->push_back({0.0, value});
+    const osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
+    animation->addChannel(channel);
+    return osgSkin::packAnimations({animation});
+}
+
+TEST(HostileAnimation, KeysOutOfRangeAreRefused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const float infinite = std::numeric_limits<float>::infinity();
+    using Turns = osgAnimation::QuatSphericalLinearChannel;
+    using Places = osgAnimation::Vec3LinearChannel;
+    for (const Words& words :
+         {clipOf<Turns>(osg::Quat(0, nan, 0, 1)), clipOf<Places>(osg::Vec3(0, 0, -1e19f)),
+          clipOf<osgAnimation::FloatLinearChannel>(infinite),
+          clipOf<osgAnimation::DoubleLinearChannel>(1e300)})
+        try {
+            osgSkin::unpackAnimations(words);
+            ADD_FAILURE() << "accepted";
+        } catch (const osgSkin::Error& error) {
+            EXPECT_NE(std::string(error.what()).find("a key's value is not finite, or beyond"),
+                      std::string::npos)
+                << error.what();
+        }
+    EXPECT_EQ(osgSkin::unpackAnimations(clipOf<Places>(osg::Vec3(0, 0, -9e17f))).size(), 1u);
 }

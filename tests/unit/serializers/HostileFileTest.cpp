@@ -3,10 +3,14 @@
 // Files truncated or altered within our own classes: no crash, and no incomplete character.
 #include "SavedScene.h"
 
+#include <osgSkin/AutoPlayManager>
+
 #include <gtest/gtest.h>
 #include <osg/Notify>
+#include <osgAnimation/Channel>
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -75,6 +79,17 @@ TEST(HostileFiles, OfAnotherVersionIsRefused) {
     EXPECT_EQ(test::load(older, "osgt", &reason), nullptr);
     EXPECT_NE(reason.find("another version"), std::string::npos) << reason;
     EXPECT_NE(reason.find("osgconv character.skin character.osgb"), std::string::npos) << reason;
+}
+
+/// What is written can be read.
+TEST_P(HostileFile, IsNotWritten) {
+    const osg::ref_ptr<osg::Group> scene = test::makeScene();
+    const osg::ref_ptr<osgAnimation::FloatLinearChannel> channel =
+        new osgAnimation::FloatLinearChannel;
+    channel->getOrCreateSampler()->getOrCreateKeyframeContainer()->push_back({0.0, NAN});
+    auto& manager = dynamic_cast<osgSkin::AutoPlayManager&>(*scene->getUpdateCallback());
+    manager.getAnimationList().front()->addChannel(channel);
+    EXPECT_EQ(test::save(*scene, GetParam()), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, HostileFile, testing::Values("osgt", "osgb", "osgx"),

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
@@ -48,6 +49,16 @@ void takeValue(BlockReader& in, float& value) {
 }
 void takeValue(BlockReader& in, double& value) {
     value = in.longReal();
+}
+
+/// Whether bones can be where a value puts them.
+bool isInRange(double number) {
+    return std::abs(number) <= 1e18; // not NaN
+}
+template <typename Vector>
+auto isInRange(const Vector& value) -> decltype(value._v, bool()) {
+    return std::all_of(std::begin(value._v), std::end(value._v),
+                       [](double x) { return isInRange(x); });
 }
 
 constexpr std::size_t kTimeWords = 2;
@@ -150,6 +161,8 @@ osg::ref_ptr<osgAnimation::Channel> takeChannel(BlockReader& in) {
                 Value value;
                 takeValue(keys, value);
                 if (!std::isfinite(time)) in.fail("a key's time is not finite");
+                if (!isInRange(value))
+                    in.fail("a key's value is not finite, or beyond -1e18 to 1e18");
                 made->push_back({time, value});
             }
             return made;
