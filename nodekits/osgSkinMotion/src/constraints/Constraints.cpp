@@ -95,7 +95,7 @@ void apply(const Constraint& constraint, Bone& bone, const Bone& source) {
 } // namespace
 
 /// The constrained bones of one skeleton, in the order in which they are rotated. Does not keep
-/// bones alive, which own it.
+/// bones alive, which own it, nor the constraints.
 class Constraints::Bones {
 public:
     Bones(osgAnimation::Skeleton& skeleton, const std::vector<Constraint>& constraints)
@@ -108,7 +108,7 @@ public:
             const auto source = bones.find(constraint.source.name);
             if (bone == bones.end() || source == bones.end()) continue;
             if (places.emplace(bone->second, entries.size()).second)
-                entries.push_back({bone->second, source->second, constraint});
+                entries.push_back({bone->second, source->second, &constraint});
         }
         std::vector<bool> isOpen(entries.size(), true);
         for (std::size_t i = 0; i < entries.size(); ++i) add(i, entries, places, isOpen);
@@ -123,13 +123,13 @@ public:
 
     void apply() const {
         for (const Entry& entry : _entries)
-            osgSkin::apply(entry.constraint, *entry.bone, *entry.source);
+            osgSkin::apply(*entry.constraint, *entry.bone, *entry.source);
     }
 
 private:
     struct Entry {
         osg::observer_ptr<Bone> bone, source;
-        Constraint constraint;
+        const Constraint* constraint;
     };
 
     /// Adds what a constraint depends on, and then it. Chains may be long: no recursion.
@@ -148,7 +148,7 @@ private:
                 if (const auto place = places.find(bone); place != places.end())
                     stack.emplace_back(place->second, false);
             };
-            if (entry.constraint.kind == Constraint::Kind::Aim)
+            if (entry.constraint->kind == Constraint::Kind::Aim)
                 for (const Bone* of : {entry.bone.get(), entry.source.get()})
                     for (const Bone* b = of->getBoneParent(); b; b = b->getBoneParent()) addOf(b);
             addOf(entry.source.get());
