@@ -3,6 +3,7 @@
 
 #include "SharedBody.h"
 #include "mesh/SurfaceTree.h"
+#include "mesh/WeldedMesh.h"
 
 #include <osgSkin/Deform>
 #include <osgSkinBind/Bind>

@@ -17,7 +17,8 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
         if (progress) progress({"shapes", 0.0});
         binding.correctives =
             options.shapes == Shapes::Fast
-                ? makeFastShapes(skeleton, joints, mesh, binding)
+                ? makeFastShapes(skeleton, recogniseJoints(skeleton, options.names), joints, mesh,
+                                 layers, binding)
                 : makeElasticShapes(skeleton, joints, mesh, layers, binding, progress, notes);
         if (progress) progress({"shapes", 1.0});
     }

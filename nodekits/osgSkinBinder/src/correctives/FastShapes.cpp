@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "correctives/MakeShapes.h"
 
+#include "correctives/Anatomy.h"
 #include "correctives/JointSections.h"
 #include "correctives/ShapeFit.h"
 #include "correctives/ShapedJoint.h"
@@ -14,7 +15,6 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,6 +25,8 @@
 
 namespace osgSkin {
 namespace {
+
+using Points = std::vector<glm::dvec3>;
 
 /// A bent joint. Points are relative to its centre, in the space of the bone above at rest.
 struct FoldShape {
@@ -105,11 +107,10 @@ double limitedTo(double wish, double room) {
     return wish / std::sqrt(std::sqrt(1.0 + square * square));
 }
 
-std::vector<RestPoint> restPointsOf(const ShapedJoint& joint) {
+std::vector<RestPoint> restPointsOf(const ShapedJoint& joint, const Points& skin) {
     const glm::dvec3 normal = glm::normalize(joint.above + joint.bone);
     std::vector<RestPoint> points;
-    for (const ShapedJoint::Vertex& vertex : joint.vertices) {
-        const glm::dvec3& at = vertex.from;
+    for (const glm::dvec3& at : skin) {
         const auto from = [&at](const glm::dvec3& bone) {
             const double z = std::max(glm::dot(bone, at), 0.0);
             return std::sqrt(std::max(glm::dot(at, at) - z * z, 0.0));
@@ -282,8 +283,6 @@ private:
     std::vector<glm::dvec3> _posed;
 };
 
-using Points = std::vector<glm::dvec3>;
-
 /// Widths that are tried, as shares of the distance from the bone.
 constexpr double kWidths[] = {0.1, 0.2, 0.4, 0.7, 1.0};
 
@@ -391,8 +390,7 @@ BentSkin::BentSkin(const ShapedJoint& joint, const std::vector<RestPoint>& rest,
     : _joint(joint), _rest(rest), _bend(bend),
       _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)),
       _turns(joint.turnsOf(bend)) {
-    for (std::size_t i = 0; i < _turns.size(); ++i)
-        _posed.push_back(_turns[i] * joint.vertices[i].from);
+    for (std::size_t i = 0; i < _turns.size(); ++i) _posed.push_back(_turns[i] * rest[i].at);
 }
 
 double BentSkin::volumeOf(const ShapedJoint& joint, const Points& points) {
@@ -461,7 +459,7 @@ Points BentSkin::trunkTargets(double volumeAtRest) const {
         const ShapedJoint::Vertex& vertex = _joint.vertices[i];
         const double outside =
             1.0 - hermiteRatio(0.5 + 0.5 * depthIn(_fold, _posed[i]) / kTrunkDepth);
-        const glm::dvec3 target = clampBulge(_fold, vertex.from, _posed[i]);
+        const glm::dvec3 target = clampBulge(_fold, _rest[i].at, _posed[i]);
         lean.push_back(_posed[i] + outside * vertex.limb * vertex.fade * (target - _posed[i]));
     }
     const double plain = volumeOf(_joint, _posed), now = volumeOf(_joint, lean);
@@ -521,12 +519,12 @@ JointShapes shapesOf(const ShapedJoint& joint) {
         shapes.vertices.push_back(vertex.index);
         atRest.push_back(vertex.from);
     }
-    const double volumeAtRest = BentSkin::volumeOf(joint, atRest);
     std::optional<JointSections> sections;
     if (!joint.isAtTrunk()) sections.emplace(joint);
     const SkinRelaxation relaxation(joint);
-    const std::vector<RestPoint> rest = restPointsOf(joint);
     for (const BendTwist& bend : bendsOf(joint)) {
+        const Points displaced = displacedByTissues(joint, atRest, bend, relaxation);
+        const std::vector<RestPoint> rest = restPointsOf(joint, displaced);
         shapes.samples.push_back(
             joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
         const BentSkin skin(joint, rest, bend, sections ? sections->childDepth() : 0.5);
@@ -534,11 +532,11 @@ JointShapes shapesOf(const ShapedJoint& joint) {
         if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge && !joint.isSoft)
             shapes.weights.push_back(skin.weights());
         shapes.offsets.push_back(relaxation.relaxed(
-            skin.targets(volumeAtRest, sections ? &*sections : nullptr), skin.turns()));
-        for (std::size_t i = 0; i < rest.size(); ++i) {
-            glm::dvec3& offset = shapes.offsets.back()[i];
-            offset = glm::conjugate(skin.turns()[i]) * offset - rest[i].at;
-        }
+            skin.targets(BentSkin::volumeOf(joint, displaced), sections ? &*sections : nullptr),
+            skin.turns()));
+        Points& offsets = shapes.offsets.back();
+        for (std::size_t i = 0; i < rest.size(); ++i)
+            offsets[i] = glm::conjugate(skin.turns()[i]) * offsets[i] - atRest[i];
     }
     return shapes;
 }
@@ -584,13 +582,15 @@ FittedShapes fastShapesOf(const ShapedJoint& joint) {
     return shapesOfFine(turnedWherePossible(joint));
 }
 
-Correctives makeFastShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
-                           const WeldedMesh& mesh, const Binding& binding) {
+Correctives makeFastShapes(const RestSkeleton& skeleton, const JointRoles& roles,
+                           const std::vector<PlannedJoint>& joints, const WeldedMesh& mesh,
+                           const SkinLayers* layers, const Binding& binding) {
     std::vector<ShapedJoint> shaped = findShapedJoints(skeleton, joints, mesh, binding);
     for (ShapedJoint& soft : findSoftJoints(joints, mesh, binding))
         shaped.push_back(std::move(soft));
     std::vector<FittedShapes> all(shaped.size());
     parallelFor(shaped.size(), [&](std::size_t i) {
+        addTissues(roles, joints, mesh, layers, shaped[i]);
         all[i] = fastShapesOf(shaped[i]);
         shaped[i] = {}; // which is large
     });

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -119,6 +120,9 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const auto above = static_cast<std::uint32_t>(regionAbove(joints, shaped.functions.joint));
     shaped.away = pit.away;
+    const bool isShoulder =
+        shaped.isAtTrunk() && carries(joints, shaped.functions.joint, JointPart::Hand);
+    const double trunkWithin = isShoulder ? ShapedJoint::kTissueReach : 0.0;
     const auto limbOf = [&](std::uint32_t v, const Influence& own) {
         if (shaped.isAtTrunk())
             return trunkToo ? 1.0 : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
@@ -134,7 +138,7 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         const double loose = 1.0 - ratios.rigid(v, joints);
         const double fade = reach.shareAt(r) * loose;
         const double fadeClosed = reachTowards(from, reach, pit).shareAt(r) * loose;
-        if (withinReach && (limb <= 0.0 || fade <= 0.0)) return;
+        if (withinReach && ((limb <= 0.0 && r >= trunkWithin) || fade <= 0.0)) return;
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
         shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
                                    static_cast<double>(own.twist), limb, withinReach ? fade : 0.0,
@@ -458,6 +462,16 @@ ShapedJoint coarserJoint(const ShapedJoint& joint, const CoarseGraph& coarser) {
     for (std::uint32_t v = 0; v < bend.size(); ++v)
         result.vertices.push_back(
             {v, coarser.graph().positions[v], bend[v], twist[v], limb[v], fade[v], fade[v]});
+    for (ShapedJoint::Tissue& tissue : result.tissues) {
+        const std::vector<glm::dvec3> fine = std::move(tissue.moves);
+        tissue.moves.assign(bend.size(), glm::dvec3(0.0));
+        std::vector<double> field(fine.size());
+        for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t v = 0; v < field.size(); ++v) field[v] = fine[v][axis];
+            const std::vector<double> coarse = coarser.restricted(field);
+            for (std::size_t v = 0; v < coarse.size(); ++v) tissue.moves[v][axis] = coarse[v];
+        }
+    }
     return result;
 }
 

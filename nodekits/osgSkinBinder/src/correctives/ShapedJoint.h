@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -80,6 +81,16 @@ struct ShapedJoint {
     /// The triangles with a corner within reach, facing outwards: three indices in `vertices` each.
     /// Their corners beyond the reach are in `vertices`, too, with `fade` 0.
     std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    /// How far from a joint its tissue reaches, in radii.
+    static constexpr double kTissueReach = 2.6;
+
+    /// Tissue below the skin that displaces it as the joint bends, before all other shapes.
+    struct Tissue {
+        std::function<double(const BendTwist&)> amount; ///< 0 at rest
+        std::vector<glm::dvec3> moves; ///< of each vertex by an amount of 1, rest space
+    };
+    std::vector<Tissue> tissues; ///< see addTissues()
 
     /// True if the bone above belongs to no limb: at shoulders and hips.
     bool isAtTrunk() const { return functions.basis == CorrectiveJoint::Basis::Ball; }

@@ -99,6 +99,13 @@ Points SkinRelaxation::relaxed(Points points, const std::vector<glm::dquat>& tur
     return points;
 }
 
+Points SkinRelaxation::smoothed(Points field) const {
+    if (!_isOn) return field;
+    const Fours smooth = this->smooth(field, Eigen::VectorXd::Zero(_areasAtRest.size()));
+    for (std::size_t i = 0; i < field.size(); ++i) field[i] = pointOf(smooth[i]);
+    return field;
+}
+
 SkinRelaxation::Fours SkinRelaxation::smooth(const Points& points,
                                              const Eigen::VectorXd& values) const {
     Fours x(points.size());

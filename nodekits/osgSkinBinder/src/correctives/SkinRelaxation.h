@@ -31,6 +31,9 @@ public:
     std::vector<glm::dvec3> relaxed(std::vector<glm::dvec3> points,
                                     const std::vector<glm::dquat>& turns) const;
 
+    /// A field of vectors over the joint's skin, smoothed; itself if the joint has no relaxation.
+    std::vector<glm::dvec3> smoothed(std::vector<glm::dvec3> field) const;
+
 private:
     using Fours = std::vector<Eigen::Array4f>; ///< of each vertex: a point and another value
 
