@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Motions that move hands into the body: avoidBody() moves the hands out, and nothing else.
-#include "ArmCuts.h"
+// Motions that move arms into the body: avoidBody() moves them out, and nothing else.
 #include "CharacterFiles.h"
 #include "Command.h"
 #include "SkinFiles.h"
 #include "WhyRefused.h"
-#include "arms/BodySurface.h"
+#include "arms/BodyFields.h"
+#include "arms/SkinCuts.h"
 
 #include <osgSkin/Error>
 #include <osgSkinCharacter/AvoidBody>
@@ -16,52 +16,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
-
-using osgSkin::SkinPoints;
-
-namespace {
-
-/// Alternating points of two joints: of the first around (0, 0, 0) and (4, 0, 0), of the second
-/// around the same positions 2 higher; a bump in the middle of each.
-SkinPoints bumps() {
-    SkinPoints points;
-    for (int ring = 0; ring < 8; ++ring)
-        for (const double x : {0.0, 4.0})
-            for (const std::uint32_t joint : {0u, 1u}) {
-                const double angle = 0.25 * M_PI * ring;
-                const glm::dvec3 around(0.5 * std::cos(angle), 2.0 * joint, 0.5 * std::sin(angle));
-                points.add(around + glm::dvec3(x, 0.4 * (ring % 2), 0), {0, 1, 0}, joint);
-            }
-    return points;
-}
-
-} // namespace
-
-TEST(SkinPoints, AreAveragedByJoint) {
-    const SkinPoints points = bumps();
-    const SkinPoints averaged = points.averaged(4);
-    ASSERT_EQ(averaged.size(), 4u);
-    std::size_t of[2] = {0, 0};
-    for (std::size_t k = 0; k < averaged.size(); ++k) {
-        const std::uint32_t joint = averaged.joints[k];
-        ++of[joint];
-        const double x = averaged.places[k].x < 2.0 ? 0.0 : 4.0;
-        EXPECT_LT(glm::distance(averaged.places[k], glm::dvec3(x, 2.0 * joint + 0.2, 0)), 1e-12)
-            << k;
-        EXPECT_NEAR(averaged.normals[k].y, 1.0, 1e-12);
-    }
-    EXPECT_EQ(of[0], 2u);
-    EXPECT_EQ(of[1], 2u);
-}
-
-TEST(SkinPoints, AreKeptWhereThereAreFew) {
-    const SkinPoints points = bumps();
-    EXPECT_EQ(points.spread(points.size()).places, points.places);
-    EXPECT_EQ(points.spread(5).size(), 5u);
-}
 
 namespace {
 
@@ -79,7 +37,7 @@ double degreesOf(const glm::dquat& q) {
 struct RoundBody {
     osgSkin::RestSkeleton rest;
     osgSkin::SkinMesh mesh;
-    osgSkin::Binding binding; ///< regions alone
+    osgSkin::Binding binding; ///< rigid
     osgSkin::JointRoles roles;
     std::size_t upper = 0, lower = 0; ///< left
 
@@ -103,6 +61,21 @@ struct RoundBody {
         }
         tube(spine, {0, 1.5, 0}, 0.7, kTrunk);
         roles = osgSkin::recogniseJoints(rest);
+        bindRigidly();
+    }
+
+    /// Each vertex follows its region's joint and all above it.
+    void bindRigidly() {
+        for (const osgSkin::RestJoint& joint : rest.joints)
+            binding.joints.push_back(
+                {joint.name, joint.parent, joint.centre, {0, -1, 0}, {0, -1, 0}});
+        binding.firstInfluence.push_back(0);
+        for (const std::uint32_t region : binding.regions) {
+            for (std::uint32_t j = 0; j <= region; ++j)
+                if (rest.isInSubtree(int(region), int(j)))
+                    binding.influences.push_back({j, 1.0f, 1.0f});
+            binding.firstInfluence.push_back(static_cast<std::uint32_t>(binding.influences.size()));
+        }
     }
 
     int add(const std::string& name, int parent, const glm::dvec3& centre) {
@@ -156,6 +129,17 @@ struct RoundBody {
                 glm::angleAxis(glm::radians(-4.0), glm::dvec3(1, 0, 0));
         }
         return clip;
+    }
+
+    /// Both palms' positions in a sample.
+    std::array<glm::dvec3, 2> hands(const Clip& clip, std::size_t frame) const {
+        osgSkin::PosedJoints pose(rest);
+        pose.set(rest, clip, frame);
+        const auto hand = [&](const char* role) {
+            const auto j = static_cast<std::size_t>(roles.joint(role));
+            return pose.place(rest.joints[j].centre - glm::dvec3(0, 0.06, 0), j);
+        };
+        return {hand("LeftHand"), hand("RightHand")};
     }
 
     osgSkin::AvoidBodyReport clear(Clip& clip) const {
@@ -226,6 +210,53 @@ TEST(AvoidBody, DoesNotChangeFreeArms) {
     EXPECT_EQ(after.rotations, before.rotations);
 }
 
+TEST(AvoidBody, DoesNotChangeFramesFarFromAnyCut) {
+    const RoundBody body;
+    std::vector<double> inwards(180, -10.0); // three seconds, with a cut in the middle
+    for (std::size_t f = 84; f < 96; ++f)
+        inwards[f] = -10.0 + 28.0 * std::sin(M_PI * double(f - 84) / 12.0);
+    const Clip before = body.clip(inwards);
+    Clip after = before;
+    body.clear(after);
+    const std::vector<double> added = turns(body, before, after);
+    std::size_t first = added.size(), last = 0;
+    for (std::size_t f = 0; f < added.size(); ++f)
+        if (body.depth(before, f) > 0.0) {
+            first = std::min(first, f);
+            last = f;
+        }
+    ASSERT_LT(first, last);
+    EXPECT_GT(added[90], 2.0);
+    for (std::size_t f = 0; f < added.size(); ++f)
+        if (f + 18 < first || f > last + 18) { // 0.3 seconds
+            EXPECT_EQ(added[f], 0.0) << f;
+        }
+}
+
+TEST(AvoidBody, KeepsTouchingHandsTogether) {
+    const RoundBody body;
+    Clip before = body.clip(std::vector<double>(60, 0.0));
+    const auto right = static_cast<std::size_t>(body.roles.joint("RightUpperArm"));
+    for (std::size_t f = 0; f < before.frames; ++f) {
+        const double part = std::sin(M_PI * double(f) / double(before.frames - 1));
+        const auto turn = [&](double inwards) {
+            return glm::angleAxis(glm::radians(-16.0 * part), glm::dvec3(1, 0, 0)) *
+                   glm::angleAxis(glm::radians(inwards * part), glm::dvec3(0, 0, 1));
+        };
+        before.rotations[f * before.joints + body.upper] = turn(-27.0);
+        before.rotations[f * before.joints + right] = turn(27.0);
+    }
+    const auto apart = [&](const Clip& clip) {
+        const auto [left, other] = body.hands(clip, 30);
+        return left - other;
+    };
+    ASSERT_LT(glm::length(apart(before)), 0.08);
+    ASSERT_GT(body.depth(before, 30), 0.01);
+    Clip after = before;
+    EXPECT_GT(body.clear(after).largestDegrees, 2.0);
+    EXPECT_LT(glm::distance(apart(after), apart(before)), 0.02);
+}
+
 TEST(AvoidBody, DoesNotChangeContactsOfTheRestPose) {
     const RoundBody body(0.17); // forearms rest inside the trunk
     Clip before = body.clip({0.0});
@@ -261,35 +292,55 @@ TEST(AvoidBody, KeepsAWalkersHandsOutOfAWideBody) {
     if (!test::isAvailable(*walk, why)) GTEST_SKIP() << why;
     osgSkin::Character character =
         osgSkin::loadCharacter(test::skinFile(*walk, test::makeTestFolder()));
-    osgSkin::CharacterMotion before = character.motions.front();
-    Clip thinned = before.clip; // every twentieth sample is enough
-    thinned.frames = 0;
-    thinned.frameTime *= 20.0;
-    thinned.rotations.clear();
-    thinned.rootPositions.clear();
-    for (std::size_t f = 0; f < before.clip.frames; f += 20, ++thinned.frames) {
-        const auto first = before.clip.rotations.begin() + std::ptrdiff_t(f * thinned.joints);
-        thinned.rotations.insert(thinned.rotations.end(), first,
-                                 first + std::ptrdiff_t(thinned.joints));
-        thinned.rootPositions.push_back(before.clip.rootPositions[f]);
-    }
-    before.clip = thinned;
-    osgSkin::CharacterMotion after = before;
+    const Clip& before = character.motions.front().clip;
+    Clip after = before;
+    const osgSkin::JointRoles roles = osgSkin::recogniseJoints(character.rest);
     const osgSkin::AvoidBodyReport cleared =
-        osgSkin::avoidBody(after.clip, character.rest, osgSkin::recogniseJoints(character.rest),
-                           character.body.mesh, character.binding);
-    test::ArmCuts cuts(character);
-    std::size_t cutsBefore = 0, cutsAfter = 0;
-    for (std::size_t f = 0; f < thinned.frames; ++f) {
-        character.pose(before, f);
-        cutsBefore += cuts.count();
-        character.pose(after, f);
-        cutsAfter += cuts.count();
+        osgSkin::avoidBody(after, character.rest, roles, character.body.mesh, character.binding);
+    osgSkin::SkinCuts cuts(
+        character.rest,
+        osgSkin::BodyPieces(character.rest, roles, character.body.mesh, character.binding),
+        character.body.mesh, character.binding);
+    osgSkin::PosedJoints pose(character.rest);
+    const auto count = [&](const Clip& clip) {
+        std::size_t result = 0;
+        for (std::size_t f = 0; f < clip.frames; f += 20) {
+            pose.set(character.rest, clip, f);
+            cuts.pose(pose);
+            result += cuts.find(0).size() + cuts.find(1).size();
+        }
+        return result;
+    };
+    EXPECT_GT(count(before), before.frames); // the CMU actor's elbows on a wide body
+    EXPECT_LT(double(count(after)), 0.05 * double(count(before)));
+    EXPECT_LT(cleared.meanDegrees, 5.0);
+    EXPECT_LT(cleared.largestDegrees, osgSkin::AvoidBodyReport::kMaxDegrees);
+}
+
+TEST(DistanceField, KnowsASphere) {
+    osgSkin::VoxelGrid grid;
+    grid.first = glm::dvec3(-1.5);
+    grid.size = 0.1;
+    grid.count = glm::ivec3(31);
+    std::vector<char> inside;
+    for (int z = 0; z < 31; ++z)
+        for (int y = 0; y < 31; ++y)
+            for (int x = 0; x < 31; ++x)
+                inside.push_back(glm::length(grid.first + 0.1 * glm::dvec3(x, y, z)) < 1.0 ? 1 : 0);
+    const osgSkin::DistanceField field(grid, inside);
+    const glm::dvec3 way = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
+    for (const double radius : {0.7, 0.9, 1.0, 1.3}) {
+        const osgSkin::FieldSample found = field.at(radius * way);
+        EXPECT_NEAR(found.distance, radius - 1.0, 0.05) << radius;
+        EXPECT_GT(glm::dot(glm::normalize(found.outward), way), 0.95) << radius;
+        // The gradient is that of the distance.
+        const double step = 1e-5;
+        EXPECT_NEAR((field.at((radius + step) * way).distance - found.distance) / step,
+                    glm::dot(found.outward, way), 1e-3)
+            << radius;
     }
-    EXPECT_GT(cutsBefore, 20 * thinned.frames); // the CMU actor's elbows on a wide body
-    EXPECT_LT(double(cutsAfter), 0.15 * double(cutsBefore));
-    EXPECT_LT(cleared.meanDegrees, 3.0);
-    EXPECT_LE(cleared.largestDegrees, osgSkin::AvoidBodyReport::kMaxDegrees);
+    EXPECT_GT(osgSkin::DistanceField(grid, std::vector<char>(inside.size(), 0)).at(way).distance,
+              1e30);
 }
 
 TEST(AvoidBody, IsSetByFilesAndOptions) {

@@ -1,183 +1,39 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkinCharacter/AvoidBody>
 
-#include "arms/BodySurface.h"
+#include "arms/ArmTurns.h"
+#include "arms/BodyAvoider.h"
 
 #include <osgSkin/Error>
-#include <osgSkin/GlmTypes>
-#include <osgSkinRig/ForwardKinematics>
 
-#include <glm/matrix.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <vector>
 
 namespace osgSkin {
 namespace {
 
-/// Finds the least rotation of one upper arm that moves its forearm and hand out of the body.
-///
-/// The depth of each of the arm's points in each surface, less its depth at rest, goes through a
-/// quadratic hinge. A fixed number of damped Gauss-Newton steps (Levenberg-Marquardt) reduce all
-/// these depths, the deepest first. Steps are short and involve no branches: the rotation is a
-/// continuous function of the pose.
-class ArmTurn {
-public:
-    /// \param arm must outlive this
-    /// \param surfaces of the body, posed at rest now; must outlive this
-    /// \param atRest the rest pose
-    ArmTurn(const ArmPiece& arm, const std::vector<BodySurface>& surfaces,
-            const PosedJoints& atRest);
+constexpr double kSampleTime = 1.0 / 30; ///< between the splines' coefficients
+constexpr double kWindow = 0.3;          ///< seconds about a cut in which arms may be turned
+constexpr int kRounds = 2;               ///< in which margins are widened where skin still cuts
 
-    /// The rotation about the upper arm's joint, skeleton space; exactly 1 where the arm is free.
-    /// \param pose also set on the surfaces
-    glm::dquat find(const PosedJoints& pose);
+// In arm lengths.
+constexpr double kPressed = -0.035, kOutside = 0.014; ///< margins of upper arms, of the rest
+constexpr double kWiden = 0.012;                      ///< of the margins of points near a cut
+constexpr double kOfCut = 0.2;                        ///< how near to a cut
+constexpr double kRestGap = 0.02; ///< arms may come closer by so much than they are at rest
+constexpr double kWide = 0.03;    ///< skin is looked at where points are so near to their margins
+constexpr double kReach = 0.05;   ///< points farther from the body do not count, but for turns
+constexpr double kHandsNear = 0.38, kHandsTouch = 0.25; ///< distances of the palms
 
-private:
-    /// A rotation vector in addition to `turn`; zero where the arm is free.
-    glm::dvec3 step(const glm::dquat& turn) const;
-
-    const ArmPiece& _arm;
-    const std::vector<BodySurface>& _surfaces;
-    double _margin;
-    std::vector<double>
-        _allowed; ///< [surface * points + point], depth at rest, which is no contact
-    std::vector<glm::dvec3>
-        _fromJoint; ///< the points before the rotation, relative to the upper arm's joint
-    glm::dvec3 _shoulder{0.0};
-};
-
-constexpr double kMargin =
-    0.01; ///< distance from the skin, in arm lengths, at which rotating begins
-constexpr double kLeverage = 0.4; ///< arm lengths; shorter levers get only part of their correction
-constexpr int kSteps = 8;
-
-/// A smooth ramp: 0 below 0, slope 1 above `width`.
-double hinge(double x, double width) {
-    return x >= width ? x - 0.5 * width : 0.5 * x * x / width;
-}
-
-double hingeSlope(double x, double width) {
-    return std::min(x / width, 1.0);
-}
-
-glm::dquat fromVector(const glm::dvec3& rotation) {
-    const double angle = glm::length(rotation);
-    if (angle < 1e-12) return glm::normalize(glm::dquat(1.0, 0.5 * rotation));
-    return {std::cos(0.5 * angle), std::sin(0.5 * angle) / angle * rotation};
-}
-
-/// Clamps a rotation vector smoothly, so that all steps together never exceed
-/// AvoidBodyReport::kMaxDegrees.
-glm::dvec3 limited(const glm::dvec3& step) {
-    const double share = glm::length(step) * kSteps / glm::radians(AvoidBodyReport::kMaxDegrees);
-    return step / std::sqrt(1.0 + share * share);
-}
-
-ArmTurn::ArmTurn(const ArmPiece& arm, const std::vector<BodySurface>& surfaces,
-                 const PosedJoints& atRest)
-    : _arm(arm), _surfaces(surfaces), _margin(kMargin * arm.length) {
-    _allowed.reserve(surfaces.size() * arm.skin.size());
-    for (const BodySurface& surface : surfaces)
-        for (std::size_t i = 0; i < arm.skin.size(); ++i) {
-            const glm::dvec3 place = atRest.place(arm.skin.places[i], arm.skin.joints[i]);
-            const double depth =
-                surface.isNear(place, _margin) ? surface.depth(place).depth : -_margin;
-            _allowed.push_back(std::max(depth, -_margin));
-        }
-    _fromJoint.resize(arm.skin.size());
-}
-
-glm::dvec3 ArmTurn::step(const glm::dquat& turn) const {
-    // Each contact requires rotation . gradient = -depth, weighted by its depth.
-    glm::dmat3 normal(0.0);
-    glm::dvec3 wanted(0.0);
-    double weights = 0.0;
-    for (std::size_t i = 0; i < _fromJoint.size(); ++i) {
-        const glm::dvec3 lever = turn * _fromJoint[i];
-        const glm::dvec3 place = _shoulder + lever;
-        for (std::size_t s = 0; s < _surfaces.size(); ++s) {
-            if (!_surfaces[s].isNear(place, _margin)) continue;
-            const BodySurface::Depth at = _surfaces[s].depth(place);
-            const double beyond = at.depth - _allowed[s * _fromJoint.size() + i];
-            if (!(beyond > 0.0)) continue;
-            const double depth = hinge(beyond, _margin) / _arm.length;
-            const glm::dvec3 gradient =
-                -hingeSlope(beyond, _margin) / _arm.length * glm::cross(lever, at.out);
-            const double weight = depth;
-            normal += weight * glm::outerProduct(gradient, gradient);
-            wanted -= weight * depth * gradient;
-            weights += weight;
-        }
-    }
-    if (!(weights > 0.0)) return glm::dvec3(0.0);
-    for (int k = 0; k < 3; ++k) normal[k][k] += weights * kLeverage * kLeverage;
-    return limited(glm::inverse(normal) * wanted);
-}
-
-glm::dquat ArmTurn::find(const PosedJoints& pose) {
-    _shoulder = pose.centres[_arm.upper];
-    for (std::size_t i = 0; i < _fromJoint.size(); ++i)
-        _fromJoint[i] = pose.place(_arm.skin.places[i], _arm.skin.joints[i]) - _shoulder;
-    glm::dquat turn(1.0, 0.0, 0.0, 0.0);
-    for (int k = 0; k < kSteps; ++k) {
-        const glm::dvec3 further = step(turn);
-        if (further == glm::dvec3(0.0)) break; // so are all further ones
-        turn = glm::normalize(fromVector(further) * turn);
-    }
-    return turn;
-}
-
-void check(const Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
-           const SkinMesh& mesh, const Binding& binding) {
-    const std::size_t joints = rest.joints.size();
-    const auto isJoint = [joints](std::uint32_t joint) { return joint < joints; };
-    if (clip.joints != joints || clip.rotations.size() != clip.frames * joints ||
-        clip.rootPositions.size() != clip.frames)
-        throw Error("clear hands: expected a clip of the skeleton's " + std::to_string(joints) +
-                    " joints, found one of " + std::to_string(clip.joints));
-    if (roles.roles.size() != joints)
-        throw Error("clear hands: expected roles of the skeleton's joints");
-    if (binding.regions.size() != mesh.positions.size() ||
-        !std::all_of(binding.regions.begin(), binding.regions.end(), isJoint))
-        throw Error("clear hands: expected a binding of the mesh to the skeleton");
-}
-
-/// Where a hand passes the middle of a limb, the shortest direction out changes sides: rotations
-/// are blended over so many seconds before and after.
-constexpr double kBlend = 0.06;
-
-/// The axis times the angle in radians.
-glm::dvec3 toVector(const glm::dquat& q) {
-    const glm::dvec3 axis = (q.w < 0.0 ? -1.0 : 1.0) * glm::dvec3(q.x, q.y, q.z);
-    const double sine = glm::length(axis);
-    return sine > 0.0 ? 2.0 * std::atan2(sine, std::abs(q.w)) / sine * axis : axis;
-}
-
-/// Blends over time, near samples with more weight; exactly zero where all near samples are.
-glm::dvec3 blended(const std::vector<glm::dvec3>& turns, std::size_t frame, double frameTime) {
-    const auto reach = static_cast<std::ptrdiff_t>(frameTime > 0.0 ? kBlend / frameTime : 0.0);
-    const auto at = static_cast<std::ptrdiff_t>(frame);
-    const auto last = static_cast<std::ptrdiff_t>(turns.size()) - 1;
-    glm::dvec3 sum(0.0);
-    double weights = 0.0;
-    for (auto i = std::max<std::ptrdiff_t>(0, at - reach); i <= std::min(last, at + reach); ++i) {
-        const double weight = double(reach + 1 - std::abs(i - at));
-        sum += weight * turns[static_cast<std::size_t>(i)];
-        weights += weight;
-    }
-    return sum / weights;
-}
-
-PosedJoints restPose(const RestSkeleton& rest) {
-    PosedJoints pose;
-    for (const RestJoint& joint : rest.joints) pose.rest.push_back(joint.centre);
-    pose.rotations.assign(pose.rest.size(), {1.0, 0.0, 0.0, 0.0});
-    pose.centres = pose.rest;
-    return pose;
+/// The margin of an arm's point. An upper arm may be in the trunk at first, since its skin and the
+/// armpit's give way: how far depends on the body and the pose, and shows in the skin.
+double marginOf(const ArmPiece::Point& point) {
+    return glm::mix(kPressed, kOutside, glm::clamp((point.along - 0.3) / 0.4, 0.0, 1.0));
 }
 
 } // namespace
@@ -190,44 +46,162 @@ std::string AvoidBodyReport::text() const {
     return text.str();
 }
 
-AvoidBodyReport avoidBody(Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
-                          const SkinMesh& mesh, const Binding& binding) {
-    check(clip, rest, roles, mesh, binding);
-    AvoidBodyReport result;
-    BodyPieces body = findBodyPieces(rest, roles, mesh, binding);
-    PosedJoints pose = restPose(rest);
-    for (BodySurface& surface : body.surfaces) surface.pose(pose);
-    std::vector<ArmTurn> turns;
-    turns.reserve(body.arms.size());
-    for (const ArmPiece& arm : body.arms) turns.emplace_back(arm, body.surfaces, pose);
+BodyAvoider::BodyAvoider(const RestSkeleton& rest, const JointRoles& roles, const SkinMesh& mesh,
+                         const Binding& binding)
+    : _rest(rest) {
+    if (roles.roles.size() != rest.joints.size())
+        throw Error("avoid body: expected roles of the skeleton's joints");
+    if (binding.joints.size() != rest.joints.size() ||
+        binding.regions.size() != mesh.positions.size())
+        throw Error("avoid body: expected a binding of the mesh to the skeleton");
+    binding.validate();
+    _pieces.emplace(rest, roles, mesh, binding);
+    if (_pieces->arms.empty()) return;
+    _fields.emplace(rest, roles, *_pieces, mesh, binding);
+    _cuts.emplace(rest, *_pieces, mesh, binding);
+    const std::vector<BodyFields::ToRest> maps = _fields->maps(PosedJoints(rest));
+    for (std::size_t s = 0; s < 2; ++s)
+        for (std::size_t field = 0; field < BodyFields::kFields; ++field)
+            for (const ArmPiece::Point& point : _pieces->arms[s].points)
+                _most[s][field].push_back(_fields->at(field, maps, point.place).distance -
+                                          kRestGap * _pieces->armLength());
+}
 
-    // [arm][sample], in the parent joint's axes
-    std::vector<std::vector<glm::dvec3>> found(turns.size(), std::vector<glm::dvec3>(clip.frames));
-    for (std::size_t frame = 0; frame < clip.frames; ++frame) {
-        worldRotations(rest, &clip.rotations[frame * clip.joints], pose.rotations);
-        worldPositions(rest, pose.rotations, clip.rootPositions[frame], pose.centres);
-        for (BodySurface& surface : body.surfaces) surface.pose(pose);
-        for (std::size_t a = 0; a < turns.size(); ++a) {
-            const std::size_t upper = body.arms[a].upper;
-            const glm::dquat& above =
-                pose.rotations[static_cast<std::size_t>(rest.joints[upper].parent)];
-            found[a][frame] = glm::conjugate(above) * toVector(turns[a].find(pose));
+/// Finds where the arms are near the body in a sample. Returns which of them cut it.
+std::array<bool, 2> BodyAvoider::look(const PosedJoints& pose, ArmSample& sample) {
+    const double length = _pieces->armLength();
+    const double largest = glm::radians(AvoidBodyReport::kMaxDegrees);
+    std::array<bool, 2> meets{};
+    sample.maps = _fields->maps(pose);
+    for (std::size_t s = 0; s < 2; ++s) {
+        const ArmPiece& arm = _pieces->arms[s];
+        if (arm.points.empty()) continue;
+        ArmSample::Arm& posed = sample.arms[s];
+        posed.shoulder = pose.centres[arm.upper];
+        posed.palm = pose.place(arm.palm.place, arm.palm.joint);
+        posed.above = glm::mat3_cast(
+            pose.rotations[static_cast<std::size_t>(_rest.joints[arm.upper].parent)]);
+        posed.axis = glm::normalize((pose.centres[arm.lower] - posed.shoulder) * posed.above);
+        for (std::size_t field = 0; field < BodyFields::kFields; ++field)
+            for (std::size_t i = 0; i < arm.points.size(); ++i) {
+                const glm::dvec3 place = pose.place(arm.points[i].place, arm.points[i].joint);
+                const double distance = _fields->at(field, sample.maps, place).distance;
+                const double margin =
+                    std::min(marginOf(arm.points[i]) * length, _most[s][field][i]);
+                meets[s] = meets[s] || distance < margin + kWide * length;
+                if (distance < kReach * length + largest * glm::distance(place, posed.shoulder))
+                    posed.near.push_back({field, i, place, margin});
+            }
+    }
+    if (meets[0] || meets[1]) _cuts->pose(pose);
+    for (std::size_t s = 0; s < 2; ++s) meets[s] = meets[s] && !_cuts->find(s, 1).empty();
+    if (_pieces->arms[0].points.empty() || _pieces->arms[1].points.empty()) return meets;
+    const double apart = glm::distance(sample.arms[0].palm, sample.arms[1].palm) / length;
+    sample.touch = glm::clamp((kHandsNear - apart) / (kHandsNear - kHandsTouch), 0.0, 1.0);
+    return meets;
+}
+
+std::vector<ArmSample> BodyAvoider::sample(const Clip& clip, std::size_t stride,
+                                           std::size_t window) {
+    std::vector<ArmSample> samples((clip.frames + stride - 2) / stride + 1);
+    PosedJoints pose(_rest);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        pose.set(_rest, clip, std::min(k * stride, clip.frames - 1));
+        const std::array<bool, 2> meets = look(pose, samples[k]);
+        for (std::size_t s = 0; s < 2; ++s)
+            for (std::size_t i = k - std::min(k, window);
+                 meets[s] && i <= std::min(samples.size() - 1, k + window); ++i)
+                samples[i].arms[s].isFree = true;
+    }
+    return samples;
+}
+
+/// Widens the margins of points near which the skin of turned arms still cuts the body. Returns
+/// whether there are any.
+bool BodyAvoider::widenMargins(const Clip& clip, std::size_t stride, const ArmTurns& turns,
+                               std::vector<ArmSample>& samples) {
+    Clip turned = clip;
+    AvoidBodyReport unused;
+    PosedJoints pose(_rest);
+    bool any = false;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        if (!samples[k].arms[0].isFree && !samples[k].arms[1].isFree) continue;
+        const std::size_t frame = std::min(k * stride, clip.frames - 1);
+        turnArms(turns.at(double(k)), frame, turned, unused);
+        pose.set(_rest, turned, frame);
+        _cuts->pose(pose);
+        for (std::size_t s = 0; s < 2; ++s) {
+            const std::vector<ArmPiece::Point>& points = _pieces->arms[s].points;
+            std::vector<bool> cuts(points.size(), false);
+            for (const glm::dvec3& cut : _cuts->find(s)) {
+                double least = kOfCut * _pieces->armLength();
+                std::size_t nearest = points.size();
+                for (std::size_t i = 0; i < points.size(); ++i)
+                    if (const double d = glm::distance(points[i].place, cut); d < least) {
+                        least = d;
+                        nearest = i;
+                    }
+                if (nearest < points.size()) cuts[nearest] = any = true;
+            }
+            for (ArmSample::Near& near : samples[k].arms[s].near) {
+                if (!cuts[near.point]) continue;
+                const ArmPiece::Point& point = points[near.point];
+                const double distance =
+                    _fields->at(near.field, samples[k].maps, pose.place(point.place, point.joint))
+                        .distance;
+                if (distance < 0.04 * _pieces->armLength()) // else it cuts another piece
+                    near.margin =
+                        std::min(std::max(near.margin, distance) + kWiden * _pieces->armLength(),
+                                 _most[s][near.field][near.point]);
+            }
         }
     }
-    for (std::size_t a = 0; a < turns.size(); ++a)
-        for (std::size_t frame = 0; frame < clip.frames; ++frame) {
-            ++result.samples;
-            const glm::dvec3 turn = blended(found[a], frame, clip.frameTime);
-            const double angle = glm::length(turn);
-            if (!(angle > 0.0)) continue; // leaves the sample unchanged
-            glm::dquat& rotation = clip.rotations[frame * clip.joints + body.arms[a].upper];
-            rotation = glm::normalize(glm::angleAxis(angle, turn / angle) * rotation);
-            ++result.turned;
-            result.meanDegrees += glm::degrees(angle);
-            result.largestDegrees = std::max(result.largestDegrees, glm::degrees(angle));
-        }
-    if (result.samples > 0) result.meanDegrees /= double(result.samples);
+    return any;
+}
+
+void BodyAvoider::turnArms(const ArmPair& vectors, std::size_t frame, Clip& clip,
+                           AvoidBodyReport& report) const {
+    for (std::size_t s = 0; s < 2; ++s) {
+        ++report.samples;
+        const double angle = glm::length(vectors[s]);
+        if (!(angle > 0.0)) continue; // leaves the sample unchanged
+        glm::dquat& rotation = clip.rotations[frame * clip.joints + _pieces->arms[s].upper];
+        rotation = glm::normalize(glm::angleAxis(angle, vectors[s] / angle) * rotation);
+        ++report.turned;
+        report.meanDegrees += glm::degrees(angle);
+        report.largestDegrees = std::max(report.largestDegrees, glm::degrees(angle));
+    }
+}
+
+AvoidBodyReport BodyAvoider::apply(Clip& clip) {
+    if (clip.joints != _rest.joints.size() || clip.rotations.size() != clip.frames * clip.joints ||
+        clip.rootPositions.size() != clip.frames)
+        throw Error("avoid body: expected a clip of the skeleton's " +
+                    std::to_string(_rest.joints.size()) + " joints, found one of " +
+                    std::to_string(clip.joints));
+    AvoidBodyReport result;
+    if (!_fields || clip.frames == 0) return result;
+    const double frameTime = clip.frameTime > 0.0 ? clip.frameTime : kSampleTime;
+    // At least 16 samples, if there are as many frames.
+    const double frames = std::min(kSampleTime / frameTime + 0.01, double(clip.frames) / 16.0);
+    const auto stride = static_cast<std::size_t>(std::max(1.0, frames));
+    const double interval = double(stride) * frameTime;
+    // A coefficient reaches two samples far.
+    const auto window =
+        static_cast<std::size_t>(std::max(0.0, std::floor(kWindow / interval + 0.01) - 2.0));
+    std::vector<ArmSample> samples = sample(clip, stride, window);
+    ArmTurns turns(*_fields, samples, _pieces->armLength(), interval);
+    turns.solve();
+    for (int k = 0; k < kRounds && widenMargins(clip, stride, turns, samples); ++k) turns.solve();
+    for (std::size_t frame = 0; frame < clip.frames; ++frame)
+        turnArms(turns.at(double(frame) / double(stride)), frame, clip, result);
+    result.meanDegrees /= double(result.samples);
     return result;
+}
+
+AvoidBodyReport avoidBody(Clip& clip, const RestSkeleton& rest, const JointRoles& roles,
+                          const SkinMesh& mesh, const Binding& binding) {
+    return BodyAvoider(rest, roles, mesh, binding).apply(clip);
 }
 
 } // namespace osgSkin

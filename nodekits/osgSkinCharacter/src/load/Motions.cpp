@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "load/LoadSteps.h"
+
+#include "arms/BodyAvoider.h"
 #include "source/LoadReport.h"
 
 #include <osgSkinBind/RigidJoints>
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -141,18 +144,18 @@ retargetMotions(CharacterSource& source, const osgDB::Options* readOptions, Load
 
 void animateMotions(const CharacterSource& source, const Binding& binding,
                     std::vector<CharacterMotion>& motions) {
-    const bool clears = source.options.avoidBody.value_or(false);
+    std::optional<BodyAvoider> avoider;
+    if (source.options.avoidBody.value_or(false) && !motions.empty())
+        avoider.emplace(source.rest, recogniseJoints(source.rest, source.bind.names),
+                        source.body.mesh, binding);
     for (std::size_t m = 0; m < motions.size(); ++m) {
         CharacterMotion& motion = motions[m];
         const std::string& file = source.motions[m].file;
         withFileContext(file, [&] {
-            if (clears)
-                motion.cleared = avoidBody(motion.clip, source.rest,
-                                           recogniseJoints(source.rest, source.bind.names),
-                                           source.body.mesh, binding);
+            if (avoider) motion.cleared = avoider->apply(motion.clip);
             motion.animation = makeAnimation(motion.clip, source.rest);
         });
-        if (clears) OSG_INFO << file << ": " << motion.cleared.text() << "\n";
+        if (avoider) OSG_INFO << file << ": " << motion.cleared.text() << "\n";
     }
 }
 

@@ -231,8 +231,7 @@ std::vector<Option> makeTable() {
              "faster"},
             &LoadOptions::surfaceNormals, {{"surface", true}, {"rotated", false}}),
         rigidOption(),
-        onOff({"avoidBody", "off",
-               "motions from files keep forearms and hands out of trunk, thighs and head"},
+        onOff({"avoidBody", "off", "motions from files keep arms out of trunk, thighs and head"},
               &LoadOptions::avoidBody),
         choice<std::optional<bool>, bool>(
             {"springs", "file", "file: hair and clothes swing where the file states springs"},
