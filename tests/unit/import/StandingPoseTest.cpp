@@ -10,6 +10,9 @@
 #include <osgSkinImport/ImportSkeleton>
 #include <osgSkinRig/Retarget>
 
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -437,6 +440,14 @@ TEST_F(StandingPose, KeepsHeightsOfOwnMotion) {
 
     for (glm::dvec3& position : own.rootPositions) position.y -= 0.5 * height; // another floor
     EXPECT_NEAR(retarget(own, rig).rootPositions[0].y, onFloor[0].y, 1e-6 * height);
+
+    own.yIsUp = true; // lies in the air, as in a flip
+    const glm::dquat back = glm::angleAxis(glm::radians(-90.0), glm::dvec3(1, 0, 0));
+    for (std::size_t f = 0; f < own.frames; ++f) {
+        own.rootPositions[f] = onFloor[f] + glm::dvec3(0, height, 0);
+        own.rotations[f * rig.joints.size()] = back * own.rotations[f * rig.joints.size()];
+    }
+    EXPECT_NEAR(retarget(own, rig).rootPositions[0].y, onFloor[0].y + height, 1e-6 * height);
 }
 
 /// Files may have no curves for joints that a clip does not move.

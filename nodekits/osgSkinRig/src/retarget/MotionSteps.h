@@ -169,6 +169,7 @@ private:
 
     const RetargetTarget& _body;
     bool _isSameBody;
+    bool _stands = false; ///< in a sample
     int _rigHips = 0;
     int _motionHips = 0;
     double _rigHeight = 0.0; ///< of the hips

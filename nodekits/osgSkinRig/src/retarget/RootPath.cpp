@@ -43,6 +43,10 @@ constexpr double kFar = 5.0;
 /// How far the feet may be off the rig's floor, in hip heights, where both files have the same one.
 constexpr double kSameFloor = 0.25;
 
+/// How much nearer to the hips' height than at rest the lower foot of one who stands may be, in hip
+/// heights. Who never stands, as in a flip, tells no floor.
+constexpr double kCrouch = 0.25;
+
 /// The median height of the feet in the samples in which they stand, so that samples in the air or
 /// on a ladder, or a single noisy one, do not count.
 double floorHeight(std::vector<double> feet, double band) {
@@ -86,7 +90,10 @@ void RootPath::add(const glm::dvec3& motionRoot, const std::vector<glm::dquat>& 
     const glm::dvec3 root = place(motionRoot, motionWorld, rigWorld);
     if (_roots.empty()) _start = _hips - _body.rig.centre(_rigHips);
     _roots.push_back(root);
-    if (!_body.rigParts.feet.empty()) _feet.push_back(lowestFoot(rigWorld));
+    if (_body.rigParts.feet.empty()) return;
+    _feet.push_back(lowestFoot(rigWorld));
+    const double hips = _hips.y - _body.rig.centre(_rigHips).y;
+    _stands = _stands || hips - _feet.back() > -kCrouch * _rigHeight;
 }
 
 double RootPath::lowestFoot(const std::vector<glm::dquat>& rigWorld) const {
@@ -117,7 +124,7 @@ std::vector<glm::dvec3> RootPath::finish() {
     if (_feet.empty()) return std::move(_roots);
     const double rise = floorHeight(_feet, kContactBand * _rigHeight);
     const bool restsOnSameFloor = std::abs(_offset.y) < 0.01 * _rigHeight;
-    if (_isSameBody && restsOnSameFloor && std::abs(rise) < kSameFloor * _rigHeight)
+    if (_isSameBody && restsOnSameFloor && (std::abs(rise) < kSameFloor * _rigHeight || !_stands))
         return std::move(_roots);
     _offset.y -= rise;
     for (glm::dvec3& root : _roots) root.y -= rise;
