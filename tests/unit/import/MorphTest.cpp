@@ -433,7 +433,7 @@ TEST(GltfMorphs, RejectsWrongNumberOfWeights) {
                 path + ": animation \"talk\": sampler 0: 2 keys and 3 values, expected 2 numbers");
 }
 
-TEST(GltfMorphs, FirstMeshWinsForDifferentWeights) {
+TEST(GltfMorphs, MeshesMoveByTheirOwnWeights) {
     Face face;
     face.json["meshes"].push_back(face.json["meshes"][0]);
     const std::size_t teeth = face.node({{"mesh", 1}, {"skin", 0}});
@@ -443,8 +443,10 @@ TEST(GltfMorphs, FirstMeshWinsForDifferentWeights) {
     const test::Notices notices;
     const ImportedRig rig = osgSkin::importRig(face.save("torn.gltf"));
     EXPECT_EQ(keysOf(*rig.animations.at(0), "wide"), (FloatKeys{{0.0, 0.0f}, {1.0, 1.0f}}));
-    EXPECT_TRUE(notices.say("1 morph targets, \"wide\" among them, have different weights"))
-        << notices.text();
+    const std::vector<std::string> names = namesOf(rig.body);
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 3u);
+    EXPECT_TRUE(keysOf(*rig.animations.at(0), "wide.001").empty()) << "stays 0";
+    EXPECT_TRUE(notices.say("move differently; renamed: \"wide.001\"")) << notices.text();
 }
 
 TEST(GltfMorphs, MotionMayMoveAFaceAlone) {
@@ -497,4 +499,25 @@ TEST(FbxMorphs, MeshesMoveByTheirOwnCurves) {
         for (const auto& [time, weight] : keysOf(*rig.animations[0], name))
             if (time == 0.5) middles.insert(weight);
     EXPECT_EQ(middles, (std::set<float>{0.9f, 1.0f}));
+}
+
+/// Two nodes show one mesh, as a face and its mirror image.
+TEST(MorphTracks, NodesOfOneMeshMoveByTheirOwn) {
+    test::GltfColumn face;
+    face.json.erase("skins");
+    face.json["nodes"][face.meshNode].erase("skin");
+    face.json["meshes"][0]["primitives"][0]["targets"] = {
+        {{"POSITION", face.accessor("VEC3", std::vector<double>(face.places.size(), 0.1))}}};
+    const std::size_t other = face.node({{"name", "other"}, {"mesh", 0}});
+    face.json["scenes"][0]["nodes"].push_back(other);
+    face.animate("talk", face.meshNode, "weights", {0.0, 1.0}, {0.0, 1.0});
+    face.animate("talk", other, "weights", {0.0, 1.0}, {0.0, 0.5});
+    const test::Notices notices;
+    const ImportedRig rig = osgSkin::importRig(face.save("two_faces.gltf"));
+    EXPECT_TRUE(notices.say("move differently; renamed: \"")) << notices.text();
+    std::set<float> ends;
+    for (const std::string& name : namesOf(rig.body))
+        for (const auto& [time, weight] : keysOf(*rig.animations.at(0), name))
+            if (time == 1.0) ends.insert(weight);
+    EXPECT_EQ(ends, (std::set<float>{0.5f, 1.0f}));
 }

@@ -232,34 +232,9 @@ SourceMesh readMesh(const aiScene& scene, const aiMesh& source) {
 /// they begin, and reads none from Collada files.
 class MorphReader {
 public:
-    /// Meshes whose targets an animation moves differently do not share them.
-    /// \param nodes of the scene
-    void findTracks(const aiScene& scene, const std::vector<SourceNode>& nodes) {
-        std::map<std::string, std::map<unsigned, std::vector<double>>> byNode;
-        for (unsigned a = 0; a < scene.mNumAnimations; ++a)
-            for (unsigned c = 0; c < scene.mAnimations[a]->mNumMorphMeshChannels; ++c) {
-                const aiMeshMorphAnim& from = *scene.mAnimations[a]->mMorphMeshChannels[c];
-                auto& tracks = byNode[nodeOf(from.mName.C_Str())];
-                for (unsigned k = 0; k < from.mNumKeys; ++k)
-                    for (unsigned i = 0; i < from.mKeys[k].mNumValuesAndWeights; ++i) {
-                        std::vector<double>& track = tracks[from.mKeys[k].mValues[i]];
-                        track.insert(track.end(),
-                                     {double(a), from.mKeys[k].mTime, from.mKeys[k].mWeights[i]});
-                    }
-            }
-        std::map<std::vector<double>, std::size_t> different;
-        for (auto& [node, tracks] : byNode)
-            for (auto& [target, track] : tracks)
-                _tracks[node][target] =
-                    different.emplace(std::move(track), different.size()).first->second;
-        for (const SourceNode& node : nodes)
-            for (const std::size_t mesh : node.meshes) _nodes.emplace(mesh, node.name);
-    }
-
     /// Adds a mesh's targets.
-    /// \param index of the mesh
     /// \param mesh with its positions
-    void addMorphs(const aiMesh& source, std::size_t index, SourceMesh& mesh) {
+    void addMorphs(const aiMesh& source, SourceMesh& mesh) {
         const std::vector<const aiAnimMesh*> targets = targetsOf(source);
         std::vector<std::string> wanted;
         wanted.reserve(targets.size());
@@ -267,16 +242,8 @@ public:
             wanted.push_back(target->mName.length > 0
                                  ? nameOf(*target)
                                  : mesh.name + "-" + std::to_string(wanted.size()));
-        std::vector<float> kinds; // those of one name that move alike have the same
-        const std::map<unsigned, std::size_t>& tracks = _tracks[_nodes[index]];
-        for (std::size_t t = 0; t < wanted.size(); ++t) {
-            const auto track = tracks.find(unsigned(t));
-            auto& known = _kinds[wanted[t]];
-            kinds.push_back(track == tracks.end()
-                                ? 0.0f
-                                : float(known.emplace(track->second, known.size()).first->second));
-        }
-        const std::vector<std::string> names = _names.of(wanted, kinds);
+        const std::vector<std::string> names =
+            _names.of(wanted, std::vector<float>(wanted.size(), 0.0f));
         const MorphFiller filler(mesh);
         for (std::size_t t = 0; t < targets.size(); ++t) {
             const auto offsets = [&](const aiVector3D* to, const aiVector3D* rest) {
@@ -296,8 +263,9 @@ public:
                           SourceAnimation& result) {
         for (unsigned c = 0; c < source.mNumMorphMeshChannels; ++c) {
             const aiMeshMorphAnim& from = *source.mMorphMeshChannels[c];
-            const SourceMesh* const mesh = meshOf(from.mName.C_Str(), scene);
-            if (mesh == nullptr) continue;
+            const SourceMesh* mesh = nullptr;
+            const int node = nodeOf(from.mName.C_Str(), scene, mesh);
+            if (node < 0) continue;
             std::vector<SourceMorphTrack> tracks(mesh->morphs.size());
             for (unsigned k = 0; k < from.mNumKeys; ++k) {
                 const aiMeshMorphKey& key = from.mKeys[k];
@@ -309,6 +277,7 @@ public:
             for (std::size_t t = 0; t < tracks.size(); ++t) {
                 if (tracks[t].weights.empty()) continue;
                 tracks[t].morph = mesh->morphs[t].name;
+                tracks[t].node = node;
                 result.morphs.push_back(std::move(tracks[t]));
             }
         }
@@ -358,31 +327,27 @@ private:
         return result;
     }
 
-    /// The node that a channel names: "NODE*0" in FBX files.
-    static std::string nodeOf(const std::string& channel) {
-        return channel.substr(0, channel.rfind('*'));
-    }
-
-    /// The mesh that a channel animates, by its node's or its own name.
-    static const SourceMesh* meshOf(const std::string& channel, const SourceScene& scene) {
-        const std::string name = nodeOf(channel);
-        const SourceMesh* result = nullptr;
-        for (const SourceNode& node : scene.nodes)
-            for (const std::size_t index : node.meshes) {
-                const SourceMesh& mesh = *scene.meshes[index];
-                if ((node.name == name || node.name == channel || mesh.name == channel) &&
-                    (result == nullptr || result->morphs.size() < mesh.morphs.size()))
-                    result = &mesh;
+    /// The node whose mesh a channel animates: "NODE*0" in FBX files, or a node's or a mesh's name;
+    /// -1 where there is none.
+    /// \param[out] mesh its mesh with the most targets
+    static int nodeOf(const std::string& channel, const SourceScene& scene,
+                      const SourceMesh*& mesh) {
+        const std::string name = channel.substr(0, channel.rfind('*'));
+        int result = -1;
+        for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+            for (const std::size_t index : scene.nodes[n].meshes) {
+                const std::string& own = scene.nodes[n].name;
+                const SourceMesh& each = *scene.meshes[index];
+                if ((own != name && own != channel && each.name != channel) ||
+                    (result >= 0 && mesh->morphs.size() >= each.morphs.size()))
+                    continue;
+                mesh = &each;
+                result = static_cast<int>(n);
             }
         return result;
     }
 
     MorphNames _names;
-    std::unordered_map<std::size_t, std::string> _nodes; ///< by mesh
-    /// Numbers of the different tracks, by node and target.
-    std::unordered_map<std::string, std::map<unsigned, std::size_t>> _tracks;
-    /// Of the tracks of targets that share a name, in the file's order.
-    std::map<std::string, std::map<std::size_t, std::size_t>> _kinds;
     std::size_t _between = 0;
 };
 
@@ -513,10 +478,9 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     readNodes(*scene, path, limits, result);
     readMaterials(*scene, path, result);
     MorphReader morphs;
-    morphs.findTracks(*scene, result.nodes);
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
         SourceMesh mesh = readMesh(*scene, *scene->mMeshes[m]);
-        morphs.addMorphs(*scene->mMeshes[m], m, mesh);
+        morphs.addMorphs(*scene->mMeshes[m], mesh);
         result.meshes.push_back(std::make_shared<const SourceMesh>(std::move(mesh)));
     }
     for (unsigned a = 0; a < scene->mNumAnimations; ++a) {
@@ -525,6 +489,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
         result.animations.push_back(std::make_shared<const SourceAnimation>(std::move(animation)));
     }
     morphs.warnLosses(path);
+    separateMorphs(result, path);
     correctFbx(models, path, limits, result);
     joinEqualVertices(result);
     result.toWorld = toWorld(*scene, path);

@@ -291,6 +291,7 @@ private:
         for (std::size_t t = 0; t < std::min(keys.width, targets->size()); ++t) {
             SourceMorphTrack& track = result.morphs.emplace_back();
             track.morph = (*targets)[t].name;
+            track.node = _indexOf[*channel.node];
             const auto weight = [&](std::size_t k) { return keys.values[k * keys.width + t]; };
             bool isConstant = true;
             for (std::size_t k = 1; k < keys.times.size(); ++k)

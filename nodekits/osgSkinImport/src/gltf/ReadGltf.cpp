@@ -302,6 +302,7 @@ SourceScene readGltf(const std::string& path, const ReadLimits& limits) {
         readConstraints(document, indexOf, scene);
         addMeshes(document, shown, indexOf, scene);
         addAnimations(document, indexOf, scene);
+        separateMorphs(scene, path);
         bindRigidParts(namedJoints(document, scene), scene);
         scene.toWorld = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
         if (facesBackwards(file))

@@ -32,7 +32,6 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -222,22 +221,11 @@ DrivenMorphs drivenMorphs(const SourceScene& scene, const ImportedMesh& body) {
 
 using MorphTracks = std::map<std::string, const SourceMorphTrack*>;
 
-bool isSame(const SourceMorphTrack& a, const SourceMorphTrack& b) {
-    return std::equal(
-        a.weights.begin(), a.weights.end(), b.weights.begin(), b.weights.end(),
-        [](const auto& p, const auto& q) { return p.time == q.time && p.value == q.value; });
-}
-
-/// The first track of each driven morph target.
-/// \param[out] differing targets with other tracks as well
-MorphTracks morphTracksOf(const SourceAnimation& animation, const DrivenMorphs& driven,
-                          std::set<std::string>& differing) {
+/// The track of each driven morph target.
+MorphTracks morphTracksOf(const SourceAnimation& animation, const DrivenMorphs& driven) {
     MorphTracks result;
-    for (const SourceMorphTrack& track : animation.morphs) {
-        if (driven.count(track.morph) == 0) continue;
-        const auto [known, isNew] = result.emplace(track.morph, &track);
-        if (!isNew && !isSame(*known->second, track)) differing.insert(track.morph);
-    }
+    for (const SourceMorphTrack& track : animation.morphs)
+        if (driven.count(track.morph) != 0) result.emplace(track.morph, &track);
     return result;
 }
 
@@ -306,10 +294,9 @@ osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkele
                            std::to_string(maxSamples / 8) + " tracks (option maxSamples)");
     osgAnimation::AnimationList result;
     const std::vector<std::string> names = clipNames(scene);
-    std::set<std::string> differing;
     std::vector<std::string> still;
     for (std::size_t a = 0; a < scene.animations.size(); ++a) {
-        const MorphTracks morphs = morphTracksOf(*scene.animations[a], driven, differing);
+        const MorphTracks morphs = morphTracksOf(*scene.animations[a], driven);
         if (const auto clip =
                 makeClip(*scene.animations[a], names[a], joints, moves, driven, morphs, path))
             result.push_back(clip);
@@ -320,11 +307,6 @@ osgAnimation::AnimationList makeClips(const SourceScene& scene, const SceneSkele
         warn(path, std::to_string(still.size()) +
                        " clips move no joint and no morph target, and are left out, " +
                        inQuotes(still.front()) + " among them");
-    if (!differing.empty())
-        warn(path, std::to_string(differing.size()) + " morph targets, " +
-                       inQuotes(*differing.begin()) +
-                       " among them, have different weights on several meshes in a clip; those "
-                       "of the first mesh are played");
     return result;
 }
 

@@ -73,6 +73,62 @@ void MorphNames::warnRenamed(const std::string& path) const {
                        " were renamed, the first to " + inQuotes(_first));
 }
 
+void separateMorphs(SourceScene& scene, const std::string& path) {
+    UniqueNames names;
+    for (const auto& mesh : scene.meshes)
+        for (const MorphTarget& target : mesh->morphs) names.take(target.name);
+    // How each node's target of a name moves: each key's animation, time and weight.
+    std::map<std::string, std::map<int, std::vector<double>>> moves;
+    for (std::size_t a = 0; a < scene.animations.size(); ++a)
+        for (const SourceMorphTrack& track : scene.animations[a]->morphs) {
+            if (track.node < 0) continue;
+            std::vector<double>& keys = moves[track.morph][track.node];
+            for (const auto& [time, weight] : track.weights)
+                keys.insert(keys.end(), {double(a), time, double(weight)});
+        }
+    std::map<std::pair<int, std::string>, std::string> renamed; // by node and name
+    for (const auto& [name, nodes] : moves) {
+        std::map<std::vector<double>, std::string> known{{nodes.begin()->second, name}};
+        for (const auto& [node, keys] : nodes) {
+            std::string& own = known[keys];
+            if (own.empty()) own = names.unique(name);
+            if (own != name) renamed[{node, name}] = own;
+        }
+    }
+    if (renamed.empty()) return;
+    warn(path,
+         "meshes with morph targets of one name move differently; renamed: " +
+             inQuotes(renamed.begin()->second) +
+             (renamed.size() > 1 ? " and " + std::to_string(renamed.size() - 1) + " more" : ""));
+    std::vector<std::size_t> uses(scene.meshes.size(), 0);
+    for (const SourceNode& node : scene.nodes)
+        for (const std::size_t mesh : node.meshes) ++uses[mesh];
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        for (std::size_t& mesh : scene.nodes[n].meshes) {
+            const auto isRenamed = [&](const MorphTarget& target) {
+                return renamed.count({int(n), target.name}) != 0;
+            };
+            const std::vector<MorphTarget>& old = scene.meshes[mesh]->morphs;
+            if (std::none_of(old.begin(), old.end(), isRenamed)) continue;
+            const auto copy = std::make_shared<SourceMesh>(*scene.meshes[mesh]);
+            for (MorphTarget& target : copy->morphs)
+                if (isRenamed(target)) target.name = renamed.at({int(n), target.name});
+            if (uses[mesh]-- > 1) {
+                mesh = scene.meshes.size();
+                scene.meshes.emplace_back();
+                uses.push_back(1);
+            }
+            scene.meshes[mesh] = copy;
+        }
+    for (auto& animation : scene.animations) {
+        const auto copy = std::make_shared<SourceAnimation>(*animation);
+        for (SourceMorphTrack& track : copy->morphs)
+            if (const auto found = renamed.find({track.node, track.morph}); found != renamed.end())
+                track.morph = found->second;
+        animation = copy;
+    }
+}
+
 MorphFiller::MorphFiller(const SourceMesh& mesh) {
     for (const glm::vec3& p : mesh.positions)
         for (int axis = 0; axis < 3; ++axis)

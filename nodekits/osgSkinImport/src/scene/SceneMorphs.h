@@ -47,6 +47,10 @@ private:
     std::string _first; ///< that did not get its name
 };
 
+/// Gives targets of several meshes that share a name, but that animations move differently, names
+/// of their own, and reports them.
+void separateMorphs(SourceScene& scene, const std::string& path);
+
 /// Offsets of vertices, or changes of their normals or tangents.
 struct VertexOffsets {
     std::vector<std::uint32_t> vertices; ///< increasing

@@ -104,6 +104,7 @@ struct SourceTrack {
 /// The weight of a morph target: linear between keys, in increasing time.
 struct SourceMorphTrack {
     std::string morph; ///< MorphTarget::name
+    int node = -1;     ///< whose mesh has the target; -1: an expression, of any
     std::vector<SourceKey<float>> weights;
 };
 
