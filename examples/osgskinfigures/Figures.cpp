@@ -296,7 +296,7 @@ Tile tile(const Body& body, const Shot& shot, Method method, const std::string& 
 
 } // namespace
 
-std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* elastic) {
+std::vector<Comparison> comparisons(const Body& body, bool painted) {
     const std::string note = painted ? "painted" : "our ratios";
     std::vector<Comparison> result;
     for (const Shot& shot : kShots) {
@@ -310,8 +310,6 @@ std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* 
             row.tiles.push_back(
                 tile(body, shot, Method::Plain, what + "osgSkin, the paper's model"));
         row.tiles.push_back(tile(body, shot, Method::Ours, what + "osgSkin"));
-        if (elastic)
-            row.tiles.push_back(tile(*elastic, shot, Method::Ours, what + "osgSkin, elastic"));
         result.push_back(row);
     }
     return result;

@@ -16,16 +16,14 @@ Tile ratioFigure(const Body& body);
 /// A pose of one joint, deformed by each method.
 struct Comparison {
     const char* name;
-    /// Linear blending, dual quaternions, the paper's model (if the body has shapes), osgSkin, and
-    /// the elastic body (if given).
+    /// Linear blending, dual quaternions, the paper's model (if the body has shapes), and osgSkin.
     std::vector<Tile> tiles;
 };
 
 /// Compares the methods at shoulder, elbow, wrist, hip and knee.
 /// \param body the body
 /// \param painted true if the weights for the other methods are painted
-/// \param elastic the same body with elastic shapes; may be null
-std::vector<Comparison> comparisons(const Body& body, bool painted, const Body* elastic);
+std::vector<Comparison> comparisons(const Body& body, bool painted);
 
 /// The paper's Fig. 1 with its caption: the regions of the skin.
 Tile regionFigure(const Body& body);

@@ -8,12 +8,10 @@
 
 #include <exception>
 #include <iostream>
-#include <optional>
 
 namespace {
 
-void writeFigures(figures::Body& body, const figures::Body* elastic, const std::string& out,
-                  bool painted) {
+void writeFigures(figures::Body& body, const std::string& out, bool painted) {
     if (!osgDB::makeDirectory(out)) throw std::runtime_error(out + ": cannot be made");
     using figures::writePicture;
     writePicture(*figures::regionFigure(body), out + "/fig1_regions.png");
@@ -21,7 +19,7 @@ void writeFigures(figures::Body& body, const figures::Body* elastic, const std::
     writePicture(*figures::ratioFigure(body), out + "/fig3_ratios.png");
     std::vector<figures::Tile> all;
     std::size_t columns = 1;
-    for (const figures::Comparison& row : figures::comparisons(body, painted, elastic)) {
+    for (const figures::Comparison& row : figures::comparisons(body, painted)) {
         columns = row.tiles.size();
         writePicture(*figures::tiled(row.tiles, columns), out + "/compare_" + row.name + ".png");
         all.insert(all.end(), row.tiles.begin(), row.tiles.end());
@@ -44,22 +42,16 @@ int main(int argc, char** argv) {
     std::string out;
     std::string file = example::dataFolder() + "/thrower.skin";
     std::string weights;
-    bool elastic = false;
     line.add("--out", out, "folder for the pictures, made if need be").required();
     line.add("--weights", weights,
              "painted weights (JSON) for the peers; without: from our ratios");
-    line.add("--elastic", elastic,
-             "a column with elastic shapes, too; solving them takes a few seconds, once");
     line.add("CHARACTER", file, example::kCharacterHelp);
     return line.run(argc, argv, [&] {
         line.parse(argc, argv);
         osgSkin::LoadOptions options;
         options.shapes = osgSkin::BindOptions::Shapes::Fast;
         figures::Body body(figures::load(file, options), weights);
-        std::optional<figures::Body> solid;
-        options.shapes = osgSkin::BindOptions::Shapes::Elastic;
-        if (elastic) solid.emplace(figures::load(file, options), weights);
-        writeFigures(body, solid ? &*solid : nullptr, out, !weights.empty());
+        writeFigures(body, out, !weights.empty());
         return 0;
     });
 }

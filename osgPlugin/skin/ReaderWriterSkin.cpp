@@ -28,8 +28,8 @@ namespace {
 /// Interval between progress lines. Shorter loads print none.
 constexpr std::chrono::seconds kBetweenLines(3);
 
-/// Logs progress as OSG notices, for hosts such as osgconv that set no progress callback: elastic
-/// shapes take a while.
+/// Logs progress as OSG notices, for hosts such as osgconv that set no progress callback:
+/// large meshes take a while.
 osgSkin::Progress noticesOf(const std::string& file) {
     using Clock = std::chrono::steady_clock;
     const std::string name = osgDB::getSimpleFileName(file);

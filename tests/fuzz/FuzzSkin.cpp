@@ -19,8 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }();
     (void)isReady;
     osgSkin::LoadOptions options;
-    // Elastic shapes take minutes to solve, which is no hang; they have tests of their own.
-    options.shapes = osgSkin::BindOptions::Shapes::Fast;
     fuzz::attempt([&] { osgSkin::loadCharacter(fuzz::save("input.skin", data, size), options); });
     return 0;
 }

@@ -37,7 +37,7 @@ KITS = {
     "osgSkinGpu": ["gpu_test --gtest_filter=-OldDriver.*"],
     "osgSkinImport": ["importTests", "system_test"],
     "osgSkinBind": ["bindTests", "system_test"],
-    "osgSkinBinder": ["bindTests", "elasticTests", "system_test"],
+    "osgSkinBinder": ["bindTests", "system_test"],
     "osgSkinCharacter": ["system_test"],
 }
 RULES = [

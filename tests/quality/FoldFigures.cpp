@@ -150,12 +150,10 @@ std::string newPairs(const Subject& plain, const Subject& shaped, const NamedPos
 
 } // namespace
 
-ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses,
-                           const std::string& shapes) {
+ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses) {
     Subject plain = subject, shaped = subject;
     plain.options->shapes = osgSkin::BindOptions::Shapes::None;
-    shaped.options->shapes = shapes == "elastic" ? osgSkin::BindOptions::Shapes::Elastic
-                                                 : osgSkin::BindOptions::Shapes::Fast;
+    shaped.options->shapes = osgSkin::BindOptions::Shapes::Fast;
     plain.options->surfaceNormals = shaped.options->surfaceNormals = true;
     const auto seconds = [](Subject& bound) {
         const auto start = std::chrono::steady_clock::now();
@@ -165,7 +163,6 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
         return std::chrono::duration<double>(end - start).count();
     };
     ShapeFigures figures;
-    figures.shapes = shapes;
     figures.seconds = -seconds(plain);
     figures.seconds += seconds(shaped);
     figures.bytesPerVertex = 2.0 *
@@ -188,8 +185,7 @@ ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>&
 }
 
 void printTable(const ShapeFigures& figures, std::ostream& out) {
-    out << format("  %-28s%12s%12s%12s%12s\n", ("shapes: " + figures.shapes).c_str(), "LBS", "DQS",
-                  "plain", "shaped");
+    out << format("  %-28s%12s%12s%12s%12s\n", "shapes", "LBS", "DQS", "plain", "shaped");
     for (const FoldFigure& fold : figures.folds) {
         out << format("  %-28s",
                       format("%s %.0f: bulge 98 %%", fold.limb.c_str(), fold.flexion).c_str());

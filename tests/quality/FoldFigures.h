@@ -34,7 +34,6 @@ struct ShapedClips {
 
 /// The effect of shapes on a body.
 struct ShapeFigures {
-    std::string shapes; ///< "fast" or "elastic"
     std::vector<FoldFigure> folds;
     ShapedClips clips;
     double bytesPerVertex = 0.0; ///< of the correctives' vectors, mean
@@ -45,9 +44,7 @@ struct ShapeFigures {
 /// Binds with shapes a subject that bind() has bound, beside its own binding.
 /// \param subject bound without shapes
 /// \param poses of the clips
-/// \param shapes "fast" or "elastic"
-ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses,
-                           const std::string& shapes);
+ShapeFigures measureShapes(const Subject& subject, const std::vector<NamedPose>& poses);
 
 void printTable(const ShapeFigures& figures, std::ostream& out);
 

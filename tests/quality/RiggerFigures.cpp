@@ -313,7 +313,7 @@ std::optional<double> measureFist(const MeasuredSkin& skin) {
     return worst;
 }
 
-std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const SkinChoice& choice) {
+std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const std::string& heat) {
     const PaintedBody body = loadBody(files.body, files.rig, files.weights);
     const auto bound = [&](BindOptions::Shapes shapes) {
         Subject subject = makeSubject(body, files.ratios);
@@ -327,18 +327,15 @@ std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const SkinChoice&
     const Subject plain = bound(BindOptions::Shapes::None);
     std::vector<MeasuredSkin> skins{{"LBS painted", plain, Method::Linear},
                                     {"DQS painted", plain, Method::DualQuaternion}};
-    if (std::filesystem::exists(choice.heat)) {
+    if (std::filesystem::exists(heat)) {
         PaintedBody heated = body;
-        heated.painted =
-            osgSkin::readWeights(choice.heat, heated.rig, heated.mesh.positions.size());
-        const Subject heat = makeSubject(heated, Ratios::Painted);
-        skins.push_back({"LBS heat", heat, Method::Linear});
-        skins.push_back({"DQS heat", heat, Method::DualQuaternion});
+        heated.painted = osgSkin::readWeights(heat, heated.rig, heated.mesh.positions.size());
+        const Subject subject = makeSubject(heated, Ratios::Painted);
+        skins.push_back({"LBS heat", subject, Method::Linear});
+        skins.push_back({"DQS heat", subject, Method::DualQuaternion});
     }
     skins.push_back({"paper", plain, Method::Ours});
     skins.push_back({"fast", bound(BindOptions::Shapes::Fast), Method::Ours});
-    if (choice.elastic)
-        skins.push_back({"elastic", bound(BindOptions::Shapes::Elastic), Method::Ours});
     return skins;
 }
 

@@ -20,16 +20,11 @@ struct MeasuredSkin {
     Method method;
 };
 
-/// Selects the skins to measure.
-struct SkinChoice {
-    bool elastic = false; ///< also measure elastic shapes, which take minutes
-    std::string heat;     ///< a file of heat weights; empty or missing: none
-};
-
 /// LBS and DQS with painted weights and with heat weights; ours without shapes (the paper's
-/// deformation), with fast ones and with elastic ones. The weights of `files` are the painted ones.
+/// deformation) and with them. The weights of `files` are the painted ones.
+/// \param heat a file of heat weights; empty or missing: none
 /// \throw osgSkin::Error if a file cannot be read or does not fit the others
-std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const SkinChoice& choice);
+std::vector<MeasuredSkin> makeSkins(const SubjectFiles& files, const std::string& heat);
 
 /// The figures of one skin that a rigger checks first. Unset if the rig lacks the joints.
 struct RiggerFigures {

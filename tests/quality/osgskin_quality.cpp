@@ -21,13 +21,13 @@ using namespace quality;
 struct Options {
     std::vector<std::string> bodies = kShapes;
     std::string rig, weights;
-    SkinChoice skins;
+    std::string heat;
     bool rigger = false;
     std::string motions = OSGSKIN_SHARED_DATA "/cmu/mb";
     std::string json;
     std::string method = "smooth";
     bool noSweeps = false;
-    std::string shapes;
+    bool shapes = false;
     std::string people;
     std::vector<std::size_t> subjects{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     bool fittedJoints = false;
@@ -42,7 +42,7 @@ void define(example::CommandLine& line, Options& options) {
         line.add("--weights", options.weights, "the painted weights of the mesh file (JSON)");
     rig.needs(weights);
     weights.needs(rig);
-    line.add("--heat", options.skins.heat, "its bone heat weights (JSON)").needs(rig);
+    line.add("--heat", options.heat, "its bone heat weights (JSON)").needs(rig);
     line.add("--motions", options.motions, "the folder of the CMU motions");
     line.add("--bind", options.method, "how our ratios are found")
         .oneOf({"smooth", "paper", "weights"})
@@ -50,12 +50,9 @@ void define(example::CommandLine& line, Options& options) {
     const auto json = line.add("--json", options.json, "a file to write the figures to");
     line.add("--shapes", options.shapes,
              "only what shapes do: limbs folded, and the clips, with and without them")
-        .oneOf({"fast", "elastic"})
         .excludes(json);
     line.add("--no-sweeps", options.noSweeps, "leave out the sweeps, which take longest");
     line.add("--rigger", options.rigger, "only what a rigger looks at first");
-    line.add("--elastic", options.skins.elastic,
-             "a rigger's figures with elastic shapes, too; takes minutes a body");
     const auto people = line.add(
         "--people", options.people,
         "only the distance from captured people: the folder of FAUST's scans with 5,000 vertices");
@@ -79,16 +76,14 @@ std::vector<SubjectFiles> subjects(const Options& options) {
 
 /// Figures of all skins of a body.
 std::vector<RiggerFigures> measureRigger(const SubjectFiles& files, const Options& options) {
-    SkinChoice choice = options.skins;
     const std::string shape = shapeOf(files);
-    if (!shape.empty()) choice.heat = makeHumanHeat(shape);
-    const std::vector<MeasuredSkin> skins = makeSkins(files, choice);
+    const std::vector<MeasuredSkin> skins =
+        makeSkins(files, shape.empty() ? options.heat : makeHumanHeat(shape));
     std::vector<RiggerFigures> figures =
         measureRigger(skins, standardPoses(options.motions, skins.front().subject));
     if (shape.empty()) return figures;
     // The heat weights are for the CMU rig only, which has no finger joints.
-    choice.heat.clear();
-    for (const MeasuredSkin& skin : makeSkins(makeHumanFiles(shape, "game_engine"), choice))
+    for (const MeasuredSkin& skin : makeSkins(makeHumanFiles(shape, "game_engine"), {}))
         for (RiggerFigures& entry : figures)
             if (entry.skin == skin.name) entry.fist = measureFist(skin);
     return figures;
@@ -117,8 +112,7 @@ void reportShapes(const Options& options) {
     for (const SubjectFiles& files : subjects(options)) {
         const Subject subject = loadSubject(files);
         std::cout << subject.name << '\n';
-        printTable(measureShapes(subject, standardPoses(options.motions, subject), options.shapes),
-                   std::cout);
+        printTable(measureShapes(subject, standardPoses(options.motions, subject)), std::cout);
     }
 }
 
@@ -140,7 +134,7 @@ void reportPeople(const Options& options) {
 
 void run(const Options& options) {
     if (!options.people.empty()) return reportPeople(options);
-    if (!options.shapes.empty()) return reportShapes(options);
+    if (options.shapes) return reportShapes(options);
     nlohmann::ordered_json json = {{"bind", options.method}, {"bodies", nlohmann::json::array()}};
     if (options.rig.empty() && !options.rigger) {
         const std::vector<CylinderPose> cylinder = measureCylinder();

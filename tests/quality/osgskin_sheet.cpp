@@ -88,8 +88,7 @@ figures::Tile tile(const Subject& subject, const DemandingPose& demanding, Metho
 void drawSheet(const std::string& shape, const Options& options) {
     Subject subject = loadSubject(makeHumanFiles(shape));
     if (options.shapes != "fast") {
-        using Shapes = osgSkin::BindOptions::Shapes;
-        subject.options->shapes = options.shapes == "none" ? Shapes::None : Shapes::Elastic;
+        subject.options->shapes = osgSkin::BindOptions::Shapes::None;
         subject.binding =
             osgSkin::bind(subject.mesh, subject.rig, *subject.options, &subject.report);
         subject.model = modelOf(subject);
@@ -113,9 +112,7 @@ int main(int argc, char** argv) {
     line.add("--body", options.bodies, "one of MakeHuman's shapes, as often as wanted")
         .oneOf(kShapes);
     line.add("--out", options.folder, "the folder of the pictures").showDefault();
-    line.add("--shapes", options.shapes, "ours with these")
-        .oneOf({"none", "fast", "elastic"})
-        .showDefault();
+    line.add("--shapes", options.shapes, "ours with these").oneOf({"none", "fast"}).showDefault();
     return line.run(argc, argv, [&] {
         line.parse(argc, argv);
         for (const std::string& shape : options.bodies) drawSheet(shape, options);

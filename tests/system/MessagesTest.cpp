@@ -33,7 +33,7 @@ std::string clipsFile() {
 } // namespace
 
 TEST(Messages, SuggestOptionsInOptionStrings) {
-    for (const auto& [text, meant] : {std::pair("shape=elastic", "shapes"),
+    for (const auto& [text, meant] : {std::pair("shape=fast", "shapes"),
                                       {"Shapes=none", "shapes"},
                                       {"avoid-body=on", "avoidBody"},
                                       {"maxFilesMB=3", "maxFileMB"},
@@ -66,7 +66,7 @@ TEST(Messages, SuggestOptionsOnCommandLines) {
     const std::string folder = test::makeTestFolder();
     for (const std::string program : {OSGSKIN_BAKE, OSGSKIN_VIEWER}) {
         const test::CommandResult result =
-            test::runCommand(program + " '" + kTubeFolder + "good.skin' --shape elastic", folder);
+            test::runCommand(program + " '" + kTubeFolder + "good.skin' --shape fast", folder);
         EXPECT_EQ(result.status, 2);
         expectContains(result.err, "; did you mean \"--shapes\"?");
     }
@@ -75,8 +75,8 @@ TEST(Messages, SuggestOptionsOnCommandLines) {
 TEST(Messages, SuggestMembersOfSkinFiles) {
     const std::string folder = test::makeTestFolder();
     const test::Notices notices;
-    EXPECT_EQ(test::whyRefused(test::saveSkin(folder + "/tube.skin",
-                                              R"(, "shape": "elastic", "colour": "red")")),
+    EXPECT_EQ(test::whyRefused(
+                  test::saveSkin(folder + "/tube.skin", R"(, "shape": "fast", "colour": "red")")),
               "read");
     expectContains(notices.warnings(), "shape: unknown member ignored; did you mean \"shapes\"?");
     expectContains(notices.warnings(),

@@ -9,9 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -45,39 +42,6 @@ void expectRefused(const test::CommandResult& result, const std::string& plugIn,
     test::expectContains(line, "0.1.7 (00000000)");
 }
 
-/// An arm along y, bent by 13 degrees at rest, as a `.skin` file with all files that it names.
-void writeArm(const std::string& folder) {
-    constexpr int kSides = 16, kRings = 57;
-    std::ofstream mesh(folder + "/arm.obj");
-    for (int ring = 0; ring < kRings; ++ring)
-        for (int side = 0; side < kSides; ++side) {
-            const double angle = 2.0 * 3.141592653589793 * side / kSides;
-            mesh << "v " << std::cos(angle) << ' ' << 0.25 * ring << ' ' << -std::sin(angle)
-                 << '\n';
-        }
-    for (int ring = 0; ring + 1 < kRings; ++ring)
-        for (int side = 0; side < kSides; ++side) {
-            const int next = (side + 1) % kSides, low = 1 + ring * kSides, high = low + kSides;
-            mesh << "f " << low + side << ' ' << low + next << ' ' << high + next << ' '
-                 << high + side << '\n';
-        }
-    std::ofstream(folder + "/arm.bvh")
-        << "HIERARCHY\nROOT upper\n{\n OFFSET 0 0 0\n CHANNELS 3 Zrotation Yrotation Xrotation\n"
-           " JOINT lower\n {\n  OFFSET 0 7 0.8\n  CHANNELS 3 Zrotation Yrotation Xrotation\n"
-           "  End Site\n  {\n   OFFSET 0 7 -0.8\n  }\n }\n}\nMOTION\nFrames: 1\n"
-           "Frame Time: 0.1\n0 0 0 0 0 0\n";
-    std::ofstream(folder + "/arm.skin")
-        << R"({ "osgskin": 1, "mesh": "arm.obj", "skeleton": "arm.bvh" })";
-}
-
-std::vector<std::filesystem::path> filesIn(const std::string& folder) {
-    std::vector<std::filesystem::path> files;
-    if (!std::filesystem::exists(folder)) return files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        files.push_back(entry.path());
-    return files;
-}
-
 const char* anotherBuild() {
     return "0.1.7 (00000000)";
 }
@@ -95,19 +59,6 @@ TEST_F(PlugIn, PrintsNothing) {
         EXPECT_EQ(result.err, "");
     }
     EXPECT_EQ(convert("saved.osgb", "saved.osgt").err, "") << "the serializers";
-}
-
-/// The user's cache folder, too, stays empty.
-TEST_F(PlugIn, SavesElasticShapesWithTheCharacterAlone) {
-    writeArm(folder);
-    const std::string home = "HOME='" + folder + "/home' XDG_CACHE_HOME='" + folder + "/home' ";
-    ASSERT_EQ(convert("arm.skin", "plain.osgb", home).status, 0);
-    const auto result = convert("arm.skin", "elastic.osgb -O shapes=elastic", home);
-    EXPECT_EQ(result.status, 0);
-    EXPECT_EQ(result.err, "");
-    EXPECT_GT(test::fileText(folder + "/elastic.osgb").size(),
-              test::fileText(folder + "/plain.osgb").size());
-    EXPECT_TRUE(filesIn(folder + "/home").empty());
 }
 
 TEST_F(PlugIn, RejectsLibrariesOfAnotherBuild) {

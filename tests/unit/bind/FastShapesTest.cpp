@@ -5,6 +5,7 @@
 // Meshes that are not surfaces: solving equations on their vertices took minutes, and gigabytes.
 #include "KnownBody.h"
 #include "Shapes.h"
+#include "correctives/ShapedJoint.h"
 #include "mesh/RequireSurface.h"
 #include "mesh/WeldedMesh.h"
 
@@ -491,4 +492,31 @@ TEST(Surface, BallsAndRingsAndSieves) {
         32);
     isSurface( // a plate with 64 holes
         [](int x, int y, int z) { return (x % 5 != 0 || y % 5 != 0) && z >= -2 && z < 2; }, 20);
+}
+
+TEST(ShapeReach, FallsFromOneToZero) {
+    const ShapeReach reach{2.0, 4.0};
+    EXPECT_EQ(reach.shareAt(0.0), 1.0);
+    EXPECT_EQ(reach.shareAt(2.0), 1.0);
+    EXPECT_NEAR(reach.shareAt(3.0), 0.5, 1e-12);
+    EXPECT_EQ(reach.shareAt(4.0), 0.0);
+    EXPECT_EQ(reach.shareAt(9.0), 0.0);
+    for (double r = 2.0; r < 4.0; r += 0.1) EXPECT_GE(reach.shareAt(r), reach.shareAt(r + 0.1));
+}
+
+/// An arm whose forearm has a second bone in line with the first, for twists.
+TEST(FindShapedJoints, LeavesOutTwistBones) {
+    RestSkeleton skeleton;
+    skeleton.add("Spine", -1, glm::dvec3(0, 0, 0));
+    skeleton.add("LeftArm", 0, glm::dvec3(0, 1, 0));
+    skeleton.add("LeftForeArm", 1, glm::dvec3(0, 5, 0.5));
+    skeleton.add("LeftForeArmRoll", 2, glm::dvec3(0, 8.6, 0.25));
+    skeleton.add("LeftHand", 3, glm::dvec3(0, 12.2, 0.0));
+    skeleton.joints.back().tip = glm::dvec3(0, 14, -0.125);
+    std::vector<std::uint32_t> shaped;
+    for (const CorrectiveJoint& joint :
+         bind(shapes::cylinder(14.0, 16), skeleton).correctives.joints)
+        shaped.push_back(joint.joint);
+    EXPECT_EQ(std::count(shaped.begin(), shaped.end(), 2u), 1) << "the elbow";
+    EXPECT_EQ(std::count(shaped.begin(), shaped.end(), 3u), 0) << "the twist bone";
 }

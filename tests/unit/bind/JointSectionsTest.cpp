@@ -35,7 +35,6 @@ ShapedJoint straightLimb() {
                  y > 0.0 ? 1.0 : 0.0,
                  0.0,
                  1.0,
-                 1.0,
                  1.0});
             if (ring == 0) continue;
             const std::uint32_t a = (ring - 1) * kLimbSides, b = a + kLimbSides;

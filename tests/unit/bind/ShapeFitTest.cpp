@@ -90,24 +90,6 @@ TEST(ShapeFit, FewerModesFitWorse) {
     EXPECT_EQ(fitShapes(shapes, {6, kTolerance}).functions.modes, 0u);
 }
 
-TEST(ShapeFit, StopsAtEnoughModes) {
-    JointShapes shapes = shapesOfHinge();
-    const FittedShapes all = fitShapes(shapes, {6, kTolerance});
-    std::vector<double> left; // after one mode, two modes...
-    for (std::size_t modes = 1; modes <= all.functions.modes; ++modes)
-        left.push_back(fitShapes(shapes, {modes, kTolerance}).residual);
-    ASSERT_GE(left.size(), 3u);
-    ModeLimits limits{6, kTolerance};
-    limits.enough = 1.05 * left[1];
-    const FittedShapes some = fitShapes(shapes, limits);
-    EXPECT_EQ(some.functions.modes, 2u);
-    EXPECT_DOUBLE_EQ(some.residual, left[1]);
-    limits.enough = 0.0;
-    limits.enoughOfResidual = 1.05 * left[1] / all.residual;
-    EXPECT_LE(fitShapes(shapes, limits).functions.modes, 2u);
-    EXPECT_GE(fitShapes(shapes, limits).functions.modes, 1u);
-}
-
 TEST(ShapeFit, PackingCopiesSeamsAndDropsSmallOffsets) {
     JointShapes shapes = shapesOfHinge();
     for (auto& sample : shapes.offsets) sample[4] = glm::dvec3(1e-6);

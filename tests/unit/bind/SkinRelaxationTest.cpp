@@ -29,13 +29,8 @@ ShapedJoint tube(bool isSoft, double relaxation) {
         for (std::uint32_t i = 0; i < kRound; ++i) {
             const double angle = 2.0 * glm::pi<double>() * i / kRound, y = ring * 0.25 - 4.0;
             const double bend = glm::clamp(0.5 + 0.5 * y, 0.0, 1.0);
-            joint.vertices.push_back({ring * kRound + i,
-                                      {std::cos(angle), y, std::sin(angle)},
-                                      bend,
-                                      bend,
-                                      1.0,
-                                      1.0,
-                                      1.0});
+            joint.vertices.push_back(
+                {ring * kRound + i, {std::cos(angle), y, std::sin(angle)}, bend, bend, 1.0, 1.0});
         }
     for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring)
         for (std::uint32_t i = 0; i < kRound; ++i) {

@@ -27,6 +27,7 @@ constexpr double kRegionsBegin = 0.2;
 constexpr double kBendsBegin = 0.8;
 constexpr double kTwistsBegin = 0.96;
 constexpr double kRatiosBegin = 0.98;
+constexpr double kShapesBegin = 0.99;
 
 /// For each vertex the one whose ratios it gets: itself, or the nearest vertex of the skin if no
 /// face uses it.
@@ -132,8 +133,7 @@ Binding RegionBinder::bind(const SkinMesh& mesh, const RestSkeleton& skeleton,
     checkOptions(skeleton, asked);
     const BindOptions options = decided(asked, true);
 
-    const double shapesBegin = shareWithoutShapes(options);
-    const Progress ratiosProgress = subProgress(options.progress, 0.0, shapesBegin);
+    const Progress ratiosProgress = subProgress(options.progress, 0.0, kShapesBegin);
     const auto tell = [&ratiosProgress](const std::string& what, double fraction) {
         if (ratiosProgress) ratiosProgress({what, fraction});
     };
@@ -177,7 +177,7 @@ Binding RegionBinder::bind(const SkinMesh& mesh, const RestSkeleton& skeleton,
     addRatios(skin, regions, std::move(bend), std::move(twist), options.maxPartialInfluences,
               binding, found);
     addShapes(skeleton, joints, skin, &layers, options,
-              subProgress(options.progress, shapesBegin, 1.0), binding, found.notes);
+              subProgress(options.progress, kShapesBegin, 1.0), binding, found.notes);
     binding.validate();
 
     found.vertices = mesh.positions.size();

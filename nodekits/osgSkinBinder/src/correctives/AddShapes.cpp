@@ -8,18 +8,13 @@
 
 namespace osgSkin {
 
-using Shapes = BindOptions::Shapes;
-
 void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& joints,
                const WeldedMesh& mesh, const SkinLayers* layers, const BindOptions& options,
                const Progress& progress, Binding& binding, std::vector<std::string>& notes) {
-    if (options.shapes != Shapes::None) {
+    if (options.shapes != BindOptions::Shapes::None) {
         if (progress) progress({"shapes", 0.0});
-        binding.correctives =
-            options.shapes == Shapes::Fast
-                ? makeFastShapes(skeleton, recogniseJoints(skeleton, options.names), joints, mesh,
-                                 layers, binding)
-                : makeElasticShapes(skeleton, joints, mesh, layers, binding, progress, notes);
+        binding.correctives = makeFastShapes(skeleton, recogniseJoints(skeleton, options.names),
+                                             joints, mesh, layers, binding);
         if (progress) progress({"shapes", 1.0});
     }
     if (options.muscles || !options.ownMuscles.empty())
@@ -28,18 +23,6 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
     if (!*options.surfaceNormals) return;
     binding.gradients = ratioGradients(mesh, binding);
     if (!binding.correctives.empty()) addNormalCorrectives(mesh, binding);
-}
-
-double shareWithoutShapes(const BindOptions& options) {
-    switch (*options.shapes) {
-    case Shapes::None:
-        return 1.0;
-    case Shapes::Fast:
-        return 0.99;
-    case Shapes::Elastic:
-        return 0.03;
-    }
-    return 1.0;
 }
 
 } // namespace osgSkin

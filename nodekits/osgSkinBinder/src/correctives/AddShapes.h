@@ -23,10 +23,6 @@ void addShapes(const RestSkeleton& skeleton, const std::vector<PlannedJoint>& jo
                const WeldedMesh& mesh, const SkinLayers* layers, const BindOptions& options,
                const Progress& progress, Binding& binding, std::vector<std::string>& notes);
 
-/// The approximate fraction of binding's time that is spent before addShapes().
-/// \param options with shapes decided()
-double shareWithoutShapes(const BindOptions& options);
-
 /// Adds normals' correctives to a binding that has correctives and gradients: each joint is bent
 /// over its whole range, and the remaining error of the corrected skin's normals is fitted by the
 /// functions that the joint already has.

@@ -578,10 +578,6 @@ FittedShapes shapesOfFine(const ShapedJoint& joint) {
 
 } // namespace
 
-FittedShapes fastShapesOf(const ShapedJoint& joint) {
-    return shapesOfFine(turnedWherePossible(joint));
-}
-
 Correctives makeFastShapes(const RestSkeleton& skeleton, const JointRoles& roles,
                            const std::vector<PlannedJoint>& joints, const WeldedMesh& mesh,
                            const SkinLayers* layers, const Binding& binding) {
@@ -591,8 +587,7 @@ Correctives makeFastShapes(const RestSkeleton& skeleton, const JointRoles& roles
     std::vector<FittedShapes> all(shaped.size());
     parallelFor(shaped.size(), [&](std::size_t i) {
         addTissues(roles, joints, mesh, layers, shaped[i]);
-        all[i] = fastShapesOf(shaped[i]);
-        shaped[i] = {}; // which is large
+        all[i] = shapesOfFine(turnedWherePossible(std::move(shaped[i])));
     });
     return packShapes(all, mesh.weldedOf);
 }

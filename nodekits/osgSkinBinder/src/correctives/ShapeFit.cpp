@@ -178,12 +178,7 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
         rows.eigenvectors() * rows.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> right(root.transpose() * overSamples *
                                                                root);
-    const double all = offsets.squaredNorm();
-    const double missed =
-        all - 2.0 * (phi.transpose() * offsets).cwiseProduct(fit).sum() + squares.sum();
-    const double enough =
-        std::max(limits.enough, limits.enoughOfResidual * rootMeanSquare(missed, offsets.size()));
-    double left = squares.sum(), residual = all;
+    double residual = offsets.squaredNorm();
     std::vector<Eigen::VectorXd> vectors;
     const std::size_t modes =
         std::min({limits.most, CorrectiveJoint::kMaxModes, static_cast<std::size_t>(phi.rows()),
@@ -191,16 +186,13 @@ FittedShapes fitShapes(const JointShapes& shapes, const ModeLimits& limits) {
     for (std::size_t k = 0; k < modes; ++k) {
         const Eigen::Index column = phi.cols() - 1 - Eigen::Index(k); // largest last
         const double square = right.eigenvalues()[column];
-        if (!(square > kRounding * right.eigenvalues().maxCoeff()) ||
-            rootMeanSquare(left, offsets.size()) < enough)
-            break;
+        if (!(square > kRounding * right.eigenvalues().maxCoeff())) break;
         const Eigen::VectorXd mode =
             fit.transpose() * (overSamples * root * right.eigenvectors().col(column) / square);
         const Eigen::VectorXd functions = fit * mode;
         const Eigen::VectorXd share = phi * functions; // of each sample
         const double longest = longestIn(mode);
         if (share.cwiseAbs().maxCoeff() * longest <= limits.tolerance) break;
-        left -= share.squaredNorm();
         residual += share.squaredNorm() - 2.0 * share.dot(offsets * mode);
         const Eigen::VectorXd coefficients = functions * longest;
         result.functions.coefficients.insert(result.functions.coefficients.end(),

@@ -39,9 +39,6 @@ struct FittedShapes {
 struct ModeLimits {
     std::size_t most = 0;
     double tolerance = 0.0; ///< drops modes that move no vertex by more; above 0
-    /// No mode is added once the modes meet the least-squares fit within the larger of these, RMS
-    /// over samples and vertices: in rest units, and as a share of the fit's own error.
-    double enough = 0.0, enoughOfResidual = 0.0;
 };
 
 /// Fits by damped least squares and keeps the modes that matter most (singular value decomposition;

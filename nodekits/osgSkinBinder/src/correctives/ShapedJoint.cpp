@@ -22,18 +22,8 @@
 namespace osgSkin {
 namespace {
 
-/// Sine of the lean towards the trunk beyond which skin belongs to the armpit.
-constexpr double kLean = 0.5;
-
 /// A limb's bones are at least this many radii long.
 constexpr double kLimbLength = 2.2;
-
-/// Limbs begin beside each other if their joints are no farther apart, in radii.
-constexpr double kBeside = 3.0;
-
-/// Sines of a limb's angle away from the trunk, relative to its rest pose, at which its armpit is
-/// open and closed.
-constexpr double kOpen = 0.75, kClosed = -0.25;
 
 /// Sine of the angle up to which two directions count as parallel.
 constexpr double kMinAcross = 0.1;
@@ -94,38 +84,20 @@ glm::dvec3 acrossOf(const std::vector<PlannedJoint>& joints, std::size_t joint) 
     return isAlong ? planned.comingFrom : fromRoot;
 }
 
-/// Whether another limb begins at the trunk beside this joint.
-bool isBesideLimb(const std::vector<ShapedJoint>& all, const ShapedJoint& shaped) {
-    return std::any_of(all.begin(), all.end(), [&](const ShapedJoint& other) {
-        return &other != &shaped && other.isAtTrunk() &&
-               glm::distance(other.centre, shaped.centre) < kBeside * shaped.radius;
-    });
-}
-
-/// The side of a limb towards the root, if the root is not in line with the limb.
-Armpit pitOf(const glm::dvec3& root, const ShapedJoint& shaped, const ShapeReach& reach) {
-    Armpit pit{reach};
-    const glm::dvec3 fromRoot = shaped.centre - root;
-    const glm::dvec3 across = fromRoot - shaped.bone * glm::dot(fromRoot, shaped.bone);
-    const double length = glm::length(across);
-    if (length > kMinAcross * glm::length(fromRoot)) pit.away = across / length;
-    return pit;
-}
-
-/// Adds the vertices and triangles within reach, in a closed armpit within the pit's reach.
+/// Adds the vertices and triangles within reach.
 void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
-             const JointRatios& ratios, bool trunkToo, bool insideOut, const ShapeReach& reach,
-             const Armpit& pit, ShapedJoint& shaped) {
+             const JointRatios& ratios, bool insideOut, const ShapeReach& reach,
+             ShapedJoint& shaped) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> placeOf(mesh.vertexCount(), kNone);
     const auto above = static_cast<std::uint32_t>(regionAbove(joints, shaped.functions.joint));
-    shaped.away = pit.away;
     const bool isShoulder =
         shaped.isAtTrunk() && carries(joints, shaped.functions.joint, JointPart::Hand);
     const double trunkWithin = isShoulder ? ShapedJoint::kTissueReach : 0.0;
     const auto limbOf = [&](std::uint32_t v, const Influence& own) {
         if (shaped.isAtTrunk())
-            return trunkToo ? 1.0 : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
+            return shaped.isSoft ? 1.0
+                                 : hermiteRatio(static_cast<double>(own.bend) / kTrunkFollows);
         return above == 0 ? 1.0 : ratios.bend(v, above);
     };
     const auto add = [&](std::uint32_t v, bool withinReach) {
@@ -137,12 +109,10 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
         // Nothing may separate the skin from a rigid part that it meets.
         const double loose = 1.0 - ratios.rigid(v, joints);
         const double fade = reach.shareAt(r) * loose;
-        const double fadeClosed = reachTowards(from, reach, pit).shareAt(r) * loose;
         if (withinReach && ((limb <= 0.0 && r >= trunkWithin) || fade <= 0.0)) return;
         placeOf[v] = static_cast<std::uint32_t>(shaped.vertices.size());
         shaped.vertices.push_back({v, from, static_cast<double>(own.bend),
-                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0,
-                                   withinReach ? fadeClosed : 0.0});
+                                   static_cast<double>(own.twist), limb, withinReach ? fade : 0.0});
     };
     for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) add(v, true);
     const auto within = static_cast<std::uint32_t>(shaped.vertices.size());
@@ -158,6 +128,9 @@ void addSkin(const WeldedMesh& mesh, const std::vector<PlannedJoint>& joints,
     }
 }
 
+/// The reach of joints of limbs.
+constexpr ShapeReach kReach{4.5, 6.0};
+
 /// Angles are in degrees. How far a hinge bends beyond straight and sideways.
 constexpr double kBeyondStraight = 12.0;
 constexpr double kMaxSideways = 30.0;
@@ -168,6 +141,7 @@ constexpr double kTurn = 32.0;
 constexpr double kTurnStep = 16.0;
 /// The share of a coordinate's range in which it is not clamped.
 constexpr double kNotClamped = 0.9;
+constexpr double kKnotStep = 30.0; ///< at most
 constexpr double kRoundKnotStep = 20.0;
 constexpr double kSampleStep = 15.0;
 constexpr double kRoundSampleStep = 10.0;
@@ -224,7 +198,7 @@ std::vector<double> steps(double from, double to, double step) {
     return result;
 }
 
-void setHinge(const glm::dvec3& axis, double mostFlexion, double knotStep, ShapedJoint& joint) {
+void setHinge(const glm::dvec3& axis, double mostFlexion, ShapedJoint& joint) {
     const double atRest = glm::degrees(std::atan2(
         glm::dot(glm::cross(joint.above, joint.bone), axis), glm::dot(joint.above, joint.bone)));
     const double most = std::clamp(mostFlexion - atRest, 30.0, 170.0);
@@ -234,7 +208,7 @@ void setHinge(const glm::dvec3& axis, double mostFlexion, double knotStep, Shape
     functions.axis = axis;
     functions.low = {sineOfHalf(least), -sineOfHalf(kMaxSideways)};
     functions.high = {sineOfHalf(most), sineOfHalf(kMaxSideways)};
-    for (const double angle : steps(least, most, knotStep))
+    for (const double angle : steps(least, most, kKnotStep))
         functions.knots.push_back(sineOfHalf(angle));
 }
 
@@ -317,20 +291,6 @@ double ShapeReach::shareAt(double radii) const {
     return 1.0 - hermiteRatio((radii - whole) / (end - whole));
 }
 
-ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const Armpit& pit) {
-    const double length = glm::length(direction);
-    if (!(length > 0.0)) return reach;
-    const double lean = -glm::dot(direction, pit.away) / length;
-    const double share = hermiteRatio(lean / kLean);
-    return {glm::mix(reach.whole, pit.reach.whole, share),
-            glm::mix(reach.end, pit.reach.end, share)};
-}
-
-double ShapedJoint::armpitClosure(const BendTwist& bend) const {
-    const double raised = glm::dot(partialRotation(bend, twistAxis, 1.0, 1.0) * bone, away);
-    return hermiteRatio((kOpen - raised) / (kOpen - kClosed));
-}
-
 std::vector<glm::dquat> ShapedJoint::turnsOf(const BendTwist& bend) const {
     const glm::dquat none(1.0, 0.0, 0.0, 0.0);
     const glm::dquat whole = partialRotation(bend, twistAxis, 1.0, 1.0);
@@ -348,8 +308,7 @@ std::vector<glm::dquat> ShapedJoint::turnsOf(const BendTwist& bend) const {
 
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
-                                          const WeldedMesh& mesh, const Binding& binding,
-                                          const ShapeScope& scope) {
+                                          const WeldedMesh& mesh, const Binding& binding) {
     const JointRatios ratios(mesh, binding);
     const std::vector<bool> trunk = trunkByShape(joints, mesh.size);
     const bool insideOut = isInsideOut(mesh);
@@ -378,28 +337,16 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.slide = motion.slide;
         shaped.relaxation = motion.relaxation;
         if (atTrunk) {
-            setBallRange(acrossOf(joints, j), shaped, scope.mostSwing);
+            setBallRange(acrossOf(joints, j), shaped);
         } else {
             const std::optional<glm::dvec3> mainAxis = findMainAxis(skeleton, joints, j);
-            setBendRange(mainAxis, acrossOf(joints, j), shaped, scope.mostFlexion, scope.knotStep);
+            setBendRange(mainAxis, acrossOf(joints, j), shaped);
             if (mainAxis) shaped.hinge = findHinge(skeleton, joints, j, *mainAxis);
         }
         result.push_back(std::move(shaped));
     }
-    std::vector<bool> isBeside;
-    for (const ShapedJoint& shaped : result)
-        isBeside.push_back(shaped.isAtTrunk() && isBesideLimb(result, shaped));
     parallelFor(result.size(), [&](std::size_t i) {
-        ShapedJoint& shaped = result[i];
-        const bool beside = isBeside[i];
-        const ShapeReach& reach = !shaped.isAtTrunk() ? scope.betweenLimbs
-                                  : beside            ? scope.besideLimb
-                                                      : scope.atTrunk;
-        if (beside)
-            setBallRange(acrossOf(joints, shaped.functions.joint), shaped, scope.mostSwingBeside);
-        Armpit pit{reach};
-        if (shaped.isAtTrunk() && !beside) pit = pitOf(joints[0].centre, shaped, scope.inPit);
-        addSkin(mesh, joints, ratios, scope.trunkToo, insideOut, reach, pit, shaped);
+        addSkin(mesh, joints, ratios, insideOut, kReach, result[i]);
     });
     result.erase(std::remove_if(result.begin(), result.end(),
                                 [](const ShapedJoint& shaped) {
@@ -432,7 +379,7 @@ std::vector<ShapedJoint> findSoftJoints(const std::vector<PlannedJoint>& joints,
         shaped.above = shaped.bone = planned.boneAxis;
         shaped.functions.joint = j;
         setBallRange(acrossOf(joints, j), shaped, kMaxSoftSwing);
-        addSkin(mesh, joints, ratios, true, insideOut, kSoftReach, Armpit{kSoftReach}, shaped);
+        addSkin(mesh, joints, ratios, insideOut, kSoftReach, shaped);
         for (ShapedJoint::Vertex& vertex : shaped.vertices) {
             // addSkin() lets go of rigid parts already where they begin, which here is halfway.
             // Heads, hands and feet may be split off later.
@@ -461,7 +408,7 @@ ShapedJoint coarserJoint(const ShapedJoint& joint, const CoarseGraph& coarser) {
                               limb = restricted(&Vertex::limb), fade = restricted(&Vertex::fade);
     for (std::uint32_t v = 0; v < bend.size(); ++v)
         result.vertices.push_back(
-            {v, coarser.graph().positions[v], bend[v], twist[v], limb[v], fade[v], fade[v]});
+            {v, coarser.graph().positions[v], bend[v], twist[v], limb[v], fade[v]});
     for (ShapedJoint::Tissue& tissue : result.tissues) {
         const std::vector<glm::dvec3> fine = std::move(tissue.moves);
         tissue.moves.assign(bend.size(), glm::dvec3(0.0));
@@ -476,9 +423,9 @@ ShapedJoint coarserJoint(const ShapedJoint& joint, const CoarseGraph& coarser) {
 }
 
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
-                  ShapedJoint& joint, double mostFlexion, double knotStep) {
+                  ShapedJoint& joint, double mostFlexion) {
     if (mainAxis)
-        setHinge(*mainAxis, mostFlexion, knotStep, joint);
+        setHinge(*mainAxis, mostFlexion, joint);
     else
         setRound(mostFlexion, across, joint);
 }

@@ -31,16 +31,6 @@ struct ShapeReach {
     double shareAt(double radii) const;
 };
 
-/// The reach on a limb's side towards the trunk: the armpit.
-struct Armpit {
-    ShapeReach reach;
-    glm::dvec3 away{0.0}; ///< unit, across the limb, away from the trunk; 0 without such a side
-};
-
-/// The reach in a direction from a joint's centre: `reach`, and the pit's where the direction leans
-/// towards the trunk by 30 degrees from the plane across `away`.
-ShapeReach reachTowards(const glm::dvec3& direction, const ShapeReach& reach, const Armpit& pit);
-
 /// A joint between two limbs, or between a limb and the trunk, that correctives can shape, with the
 /// skin around it. Rest space; vertices are welded ones.
 struct ShapedJoint {
@@ -54,7 +44,6 @@ struct ShapedJoint {
     glm::dvec3 hinge{0.0};     ///< unit; findHinge() if there is a main axis. If it is not
                                ///< perpendicular to the bone, bends twist, too
     double radius = 0.0;       ///< of the limb at the joint
-    glm::dvec3 away{0.0};      ///< unit, or 0 without an armpit; see Armpit
     /// How far skin halfway between the bones moves along with the bent bone, in radii, for each
     /// unit by which the bone's direction changes. Captured people's skin does; a rotation about
     /// the joint leaves it behind.
@@ -73,8 +62,7 @@ struct ShapedJoint {
         double
             limb; ///< how much it belongs to the limb above: the bend ratio of the joint above, or
                   ///< 1 if that is the root. At the trunk, how much it belongs to the limb itself
-        double fade;       ///< the share of its target that it takes
-        double fadeClosed; ///< the same for a closed armpit, see armpitClosure()
+        double fade; ///< the share of its target that it takes
     };
     std::vector<Vertex> vertices;
 
@@ -105,10 +93,6 @@ struct ShapedJoint {
         return bend;
     }
 
-    /// How far a bend closes the armpit, 0 to 1: wholly if the arm hangs at the side or lies in
-    /// front of the chest, not at all if it is raised.
-    double armpitClosure(const BendTwist& bend) const;
-
     /// turnOf() each vertex.
     std::vector<glm::dquat> turnsOf(const BendTwist& bend) const;
 
@@ -118,27 +102,13 @@ struct ShapedJoint {
     }
 };
 
-/// How far findShapedJoints() shapes joints.
-struct ShapeScope {
-    ShapeReach betweenLimbs{4.5, 6.0};
-    ShapeReach atTrunk{4.5, 6.0};
-    ShapeReach besideLimb{4.5, 6.0}; ///< at the trunk, if another limb begins beside it: hips
-    ShapeReach inPit{4.5, 6.0};      ///< at the trunk elsewhere, in a closed armpit
-    bool trunkToo = false;           ///< shape the trunk's skin like the limb's
-    double mostFlexion = 155.0;      ///< degrees from the straight limb
-    double knotStep = 30.0;          ///< degrees between a hinge's knots, at most
-    double mostSwing = 130.0;        ///< of ball joints, degrees from the rest pose
-    double mostSwingBeside = 130.0;  ///< the same if another limb begins beside it: hips
-};
-
 /// Finds the joints to shape by the shape of their limbs, without those of twist bones. The
 /// directions in which they bend come from the rest pose or, if that does not show them, from names
 /// and the direction of the feet.
 /// \param binding of the mesh before welding
 std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& joints,
-                                          const WeldedMesh& mesh, const Binding& binding,
-                                          const ShapeScope& scope = {});
+                                          const WeldedMesh& mesh, const Binding& binding);
 
 /// Finds the joints whose skin only slides and is smoothed (ShapedJoint::isSoft): necks, collar
 /// bones, wrists and ankles.
@@ -155,17 +125,14 @@ ShapedJoint coarserJoint(const ShapedJoint& joint, const CoarseGraph& coarser);
 ///        that a rotated or mirrored body has the same shapes; may be along the twist axis
 /// \param joint above, bone and twistAxis are set
 /// \param mostFlexion degrees from the straight limb
-/// \param knotStep largest distance of knots along the main axis, degrees
 void setBendRange(const std::optional<glm::dvec3>& mainAxis, const glm::dvec3& across,
-                  ShapedJoint& joint, double mostFlexion = ShapeScope().mostFlexion,
-                  double knotStep = ShapeScope().knotStep);
+                  ShapedJoint& joint, double mostFlexion = 155.0);
 
 /// The same for a joint at the trunk, which bends in all directions.
 /// \param across as for setBendRange()
 /// \param joint twistAxis is set
 /// \param mostSwing degrees from the rest pose
-void setBallRange(const glm::dvec3& across, ShapedJoint& joint,
-                  double mostSwing = ShapeScope().mostSwing);
+void setBallRange(const glm::dvec3& across, ShapedJoint& joint, double mostSwing = 130.0);
 
 /// Lets a hinge rotate about the limb, as knees and elbows do: sets basis and range of y.
 /// \param joint of setBendRange(), with a main axis

@@ -274,8 +274,7 @@ void placeScene(double metresPerUnit, Character& character) {
 } // namespace
 
 Character convertScene(const std::string& file, const LoadOptions& options, LoadStages& stages) {
-    const double binding = LoadStages::kBinding + LoadStages::shapesSize(options.shapes);
-    stages.plan(LoadStages::kModel + binding);
+    stages.plan(LoadStages::kModel + LoadStages::kBinding);
     stages.begin("model", LoadStages::kModel);
     const ReadLimits limits = ReadLimits::of(options.readOptions.get());
     limits.checkFormat(file);
@@ -284,7 +283,7 @@ Character convertScene(const std::string& file, const LoadOptions& options, Load
     const osg::ref_ptr<osg::Node> scene = readScene(file, options.readOptions.get());
     putBonesFirst(*scene);
     ConvertOptions convert = convertOptionsOf(options);
-    convert.bind.progress = stages.begin("binding", binding);
+    convert.bind.progress = stages.begin("binding", LoadStages::kBinding);
     ConvertReport report = convertRigs(*scene, convert);
     Character character;
     character.file = character.meshFile = file;

@@ -219,10 +219,8 @@ std::vector<Option> makeTable() {
              {"default", Method::Default}}),
         choice<std::optional<Shapes>, Shapes>(
             {"shapes", "fast; none with paper and weights",
-             "what keeps bent limbs from swelling and from going through themselves; elastic takes "
-             "2 to 5 seconds at each load, which a saved character does not need"},
-            &LoadOptions::shapes,
-            {{"none", Shapes::None}, {"fast", Shapes::Fast}, {"elastic", Shapes::Elastic}}),
+             "what keeps bent limbs from swelling and from going through themselves"},
+            &LoadOptions::shapes, {{"none", Shapes::None}, {"fast", Shapes::Fast}}),
         onOff({"muscles", "off", "muscles of arms, legs, chest, shoulders and buttocks swell"},
               &LoadOptions::muscles),
         choice<std::optional<bool>, bool>(

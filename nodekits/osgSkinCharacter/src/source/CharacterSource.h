@@ -94,8 +94,7 @@ struct CharacterSource {
 
     /// Sizes of the stages that follow the reading, see LoadStages.
     double bindingSize() const {
-        return (painted == Painted::No ? LoadStages::kBinding : LoadStages::kPaintedBinding) +
-               LoadStages::shapesSize(bind.shapes);
+        return painted == Painted::No ? LoadStages::kBinding : LoadStages::kPaintedBinding;
     }
     double sceneSize() const { return skeleton ? LoadStages::kPlayedScene : LoadStages::kScene; }
     double laterSize() const {

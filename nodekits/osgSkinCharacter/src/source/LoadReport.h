@@ -29,11 +29,6 @@ public:
     static constexpr double kScene = 3.0;
     static constexpr double kPlayedScene = 40.0; ///< with animations that are played to find bounds
 
-    /// Added to the binding's size.
-    static constexpr double shapesSize(std::optional<BindOptions::Shapes> shapes) {
-        return shapes == BindOptions::Shapes::Elastic ? 2500.0 : 0.0;
-    }
-
     /// \param progress called for each step; may be empty
     explicit LoadStages(Progress progress);
 
