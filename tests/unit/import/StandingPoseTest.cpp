@@ -195,12 +195,15 @@ TEST_F(StandingPose, NamesakesArePairedBeforeRoles) {
     for (std::size_t f = 0; f < motion.frames; ++f)
         motion.rotations.insert(motion.rotations.begin() + std::ptrdiff_t(f * (joints + 1)),
                                 kIdentity);
-    RetargetReport report;
     const Clip expected = retarget(without, pelvic);
-    const Clip clip = retarget(motion, pelvic, {}, &report);
-    EXPECT_TRUE(saysOf(report, "local rotations are copied")) << report.text().substr(0, 300);
-    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
-        ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 1e-4);
+    for (const char* prefix : {"", "Rig:"}) {
+        for (RestJoint& joint : motion.skeleton.joints) joint.name = prefix + joint.name;
+        RetargetReport report;
+        const Clip clip = retarget(motion, pelvic, {}, &report);
+        EXPECT_TRUE(saysOf(report, "local rotations are copied")) << report.text().substr(0, 300);
+        for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+            ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 1e-4);
+    }
 }
 
 /// A rig that binds no joints above the hips does not stand by itself.

@@ -22,6 +22,19 @@
 #include <vector>
 
 namespace osgSkin {
+
+std::size_t sharedPrefix(const RestSkeleton& skeleton) {
+    const std::string& first = skeleton.joints.front().name;
+    std::size_t length = first.size();
+    for (const RestJoint& joint : skeleton.joints) {
+        const auto end = first.begin() + static_cast<std::ptrdiff_t>(length);
+        const auto differs =
+            std::mismatch(first.begin(), end, joint.name.begin(), joint.name.end()).first;
+        length = static_cast<std::size_t>(differs - first.begin());
+    }
+    return length;
+}
+
 namespace {
 
 using ByName = std::map<std::string, int>;
@@ -37,6 +50,17 @@ void checkNames(const RestSkeleton& rig, const ByName& motion,
             throw Error("retarget: the map gives \"" + rigName + "\" the joint \"" + motionName +
                         "\", which the motion does not have" + expectedNames(motionName, motion));
     }
+}
+
+/// The motion's joints, also by the names that they would have with the rig's prefix.
+ByName findNamesakes(const RestSkeleton& rig, const RestSkeleton& motion) {
+    const ByName own = motion.byName();
+    ByName result = own;
+    if (motion.joints.size() < 2) return result;
+    const std::string prefix = rig.joints.front().name.substr(0, sharedPrefix(rig));
+    const std::size_t length = sharedPrefix(motion);
+    for (const auto& [name, joint] : own) result.emplace(prefix + name.substr(length), joint);
+    return result;
 }
 
 /// Roles that stand in for a missing one: some hands have all fingers in one joint.
@@ -130,7 +154,8 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
     map.rig = recogniseJoints(rig, options.names);
     map.motion = recogniseJoints(motion, options.names);
     if (isOneNameOnBothSides(map, rig, motion)) exchangeSides(map.motion);
-    shareRoles(map, rig, motion, motionJoints);
+    const ByName namesakes = findNamesakes(rig, motion);
+    shareRoles(map, rig, motion, namesakes);
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const std::string& name = rig.joints[j].name;
         const auto named = options.joints.find(name);
@@ -139,7 +164,7 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
             continue;
         }
         const int found = byRole(map, j);
-        map.motionJoint.push_back(found >= 0 ? found : byName(map, motionJoints, name, j));
+        map.motionJoint.push_back(found >= 0 ? found : byName(map, namesakes, name, j));
     }
     if (std::all_of(map.motionJoint.begin(), map.motionJoint.end(), [](int m) { return m < 0; }))
         throw Error("retarget: no joint of the rig has a joint of the same name in the motion");

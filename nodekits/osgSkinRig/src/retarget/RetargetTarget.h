@@ -12,10 +12,14 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace osgSkin {
+
+/// The length of the prefix that all joints' names share, as in "mixamorig:Hips".
+std::size_t sharedPrefix(const RestSkeleton& skeleton);
 
 /// Which motion joint drives which rig joint.
 struct JointPairs {
@@ -24,9 +28,9 @@ struct JointPairs {
 };
 
 /// Maps the rig's joints to the motion's. The caller's map comes first (an empty motion name leaves
-/// the joint at rest), then the joint of the same role, then the joint of equal name, unless it is
-/// known to be another part of the body. Spines and necks with different numbers of joints are
-/// matched end to end.
+/// the joint at rest), then the joint of the same role, then the joint of equal name, but for a
+/// prefix of all joints, unless it is known to be another part of the body. Spines and necks with
+/// different numbers of joints are matched end to end.
 /// \throw osgSkin::Error where the map names a joint that is not there, or no joint matches.
 JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
                      const RetargetOptions& options);

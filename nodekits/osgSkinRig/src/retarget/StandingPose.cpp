@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/Posture.h"
+#include "retarget/RetargetTarget.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <osgSkin/Error>
@@ -51,19 +52,6 @@ glm::dvec3 offset(const RestSkeleton& skeleton, int joint) {
     const RestJoint& own = skeleton.joints[at(joint)];
     const RestJoint& parent = skeleton.joints[at(own.parent)];
     return glm::conjugate(parent.frame) * (own.centre - parent.centre);
-}
-
-/// The length of the prefix that all joints' names share, as in "mixamorig:Hips".
-std::size_t sharedPrefix(const RestSkeleton& skeleton) {
-    const std::string& first = skeleton.joints.front().name;
-    std::size_t length = first.size();
-    for (const RestJoint& joint : skeleton.joints) {
-        const auto end = first.begin() + static_cast<std::ptrdiff_t>(length);
-        const auto differs =
-            std::mismatch(first.begin(), end, joint.name.begin(), joint.name.end()).first;
-        length = static_cast<std::size_t>(differs - first.begin());
-    }
-    return length;
 }
 
 double longest(const std::vector<glm::dvec3>& bones) {
