@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <queue>
 
 namespace osgSkin {
 namespace {
@@ -199,13 +200,13 @@ void BodyVoxels::scan(const glm::dvec3 (&p)[3], int axis, std::vector<int>& wind
 void BodyVoxels::spread(const SkinMesh& mesh, const std::vector<BodyPiece>& ofVertex) {
     std::vector<char> known(_votes.size(), 0);
     _pieces.assign(_votes.size(), BodyPiece::Other);
-    std::vector<glm::ivec3> reached;
+    std::queue<glm::ivec3> reached;
     const auto reach = [&](const glm::ivec3& at, BodyPiece piece) {
         const std::size_t i = grid.index(at);
         if (known[i] != 0) return;
         known[i] = 1;
         _pieces[i] = piece;
-        reached.push_back(at);
+        reached.push(at);
     };
     for (std::size_t v = 0; v < ofVertex.size(); ++v) {
         const glm::dvec3 at = glm::round((mesh.positions[v] - grid.first) / grid.size);
@@ -213,13 +214,13 @@ void BodyVoxels::spread(const SkinMesh& mesh, const std::vector<BodyPiece>& ofVe
             glm::all(glm::lessThan(at, glm::dvec3(grid.count))))
             reach(glm::ivec3(at), ofVertex[v]);
     }
-    for (std::size_t k = 0; k < reached.size(); ++k)
+    for (; !reached.empty(); reached.pop())
         for (int axis = 0; axis < 3; ++axis)
             for (const int step : {-1, 1}) {
-                glm::ivec3 at = reached[k];
+                glm::ivec3 at = reached.front();
                 at[axis] += step;
                 if (at[axis] >= 0 && at[axis] < grid.count[axis] && _votes[grid.index(at)] >= 2)
-                    reach(at, _pieces[grid.index(reached[k])]);
+                    reach(at, _pieces[grid.index(reached.front())]);
             }
 }
 

@@ -139,7 +139,7 @@ std::set<const SourceNode*> jointNodes(const SourceScene& scene, const SceneBind
     if (bones.empty()) {
         for (const SourceNode* node : bind.nodes()) // a VRM animation may move an arm alone
             if (!node->role.empty()) moving.insert(node);
-        const std::set<const SourceNode*> all = nodesOfSkeleton(bind);
+        std::set<const SourceNode*> all = nodesOfSkeleton(bind);
         if (moving.empty()) return all;
         // All bones of an armature count, whichever its clips move.
         std::set<const SourceNode*> tops;
