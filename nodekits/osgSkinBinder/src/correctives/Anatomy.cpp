@@ -63,7 +63,7 @@ constexpr TrunkPlace kThighForward[] = {{0.35, 0.7, 0.6, -0.8, 0.7}};
 constexpr TrunkPlace kNod[] = {{-0.5, 1.0, 0.2, -0.3, 0.7}, {-0.5, -1.0, 0.2, -0.3, 0.7}};
 
 /// Bends count up to this many right angles.
-constexpr double kMostBend = 1.5;
+constexpr double kMaxBend = 1.5;
 
 /// Distance from the joint, in limb radii, from which on tissue fades out.
 constexpr double kWholeTissue = 1.7;
@@ -78,9 +78,9 @@ double gaussian(double x, double width) {
     return std::exp(-0.5 * x * x / (width * width));
 }
 
-/// In right angles, of 0 to kMostBend.
+/// Grows with the bend, in right angles, up to kMaxBend.
 double tensionOf(double rightAngles) {
-    return std::pow(glm::clamp(rightAngles, 0.0, kMostBend), 1.5);
+    return std::pow(glm::clamp(rightAngles, 0.0, kMaxBend), 1.5);
 }
 
 /// The axes of one side of a body.
@@ -207,7 +207,7 @@ void addToNeck(const SideAxes& side, const WeldedMesh& mesh, const SkinLayers* l
     const auto nod = [left = side.side * side.outwards,
                       twistAxis = shaped.twistAxis](const BendTwist& bend) {
         return glm::clamp(bend.bendAngle * glm::dot(bend.bendAxis, left) / glm::half_pi<double>(),
-                          -kMostBend, kMostBend);
+                          -kMaxBend, kMaxBend);
     };
     addToTrunk(kNod, side, mesh, layers, 1.0, nod, shaped);
 }

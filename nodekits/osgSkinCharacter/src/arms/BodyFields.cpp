@@ -16,7 +16,7 @@ namespace osgSkin {
 namespace {
 
 constexpr double kVoxels = 64.0; ///< along an arm
-constexpr std::size_t kMostVoxels = 4000000;
+constexpr std::size_t kMaxVoxels = 4000000;
 constexpr int kPad = 8;             ///< voxels around a piece
 constexpr double kSpineBlend = 0.2; ///< of the arm's length
 
@@ -146,7 +146,7 @@ BodyVoxels::BodyVoxels(const SkinMesh& mesh, const std::vector<BodyPiece>& ofVer
     if (!(low.x <= high.x)) return;
     for (grid.size = size;; grid.size *= 1.2) {
         const glm::dvec3 count = glm::ceil((high - low) / grid.size) + 2.0 * kPad + 2.0;
-        if (count.x * count.y * count.z > double(kMostVoxels)) continue;
+        if (count.x * count.y * count.z > double(kMaxVoxels)) continue;
         grid.count = glm::ivec3(count);
         break;
     }

@@ -16,7 +16,7 @@
 
 namespace osgSkin {
 
-/// What a joint or a vertex belongs to: of a body, only what arms meet.
+/// The part of the body of a joint or a vertex, as far as arms meet it.
 enum class BodyPiece : signed char { Trunk, Head, LeftThigh, RightThigh, LeftArm, RightArm, Other };
 
 /// The joints in a pose, skeleton space.

@@ -271,8 +271,8 @@ osg::ref_ptr<osg::MatrixTransform> makeUpright(const Character& character) {
     return upright;
 }
 
-/// What findNonUniformScale() found, where that is the bone that stands for the nodes above the
-/// topmost joint: those are called something else in the file.
+/// Replaces the name of the bone that stands for the nodes above the topmost joint, which the file
+/// does not have, in a line of findNonUniformScale().
 std::string inUsersWords(const std::string& found) {
     const std::size_t end = found.find(kAboveRoot + std::string("\""));
     const std::size_t begin = found.find('"');
