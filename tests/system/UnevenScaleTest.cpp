@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Clips that rotate joints within another joint's uneven scale, which shears its children.
+#include "BlendError.h"
 #include "ExpectContains.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
@@ -34,6 +35,15 @@ GltfColumn uneven(bool isAboutY, double length) {
     return column;
 }
 
+/// A column below an object, as where a program's armature is scaled as an object.
+struct Below : GltfColumn {
+    explicit Below(const std::vector<double>& scale) : GltfColumn(uneven(false, 1.0)) {
+        object = node({{"name", "Armature"}, {"scale", scale}, {"children", {joints[0]}}});
+        json["scenes"][0]["nodes"] = {object, meshNode};
+    }
+    std::size_t object = 0;
+};
+
 std::string notesOf(GltfColumn column) {
     const test::Notices notices;
     const osgSkin::Character character = osgSkin::loadCharacter(column.save("uneven.gltf"));
@@ -45,16 +55,35 @@ std::string notesOf(GltfColumn column) {
 
 } // namespace
 
-/// As where a program's armature is scaled as an object.
 TEST(UnevenGltf, NamesTheObjectAboveTheSkeleton) {
-    GltfColumn column = uneven(false, 1.0);
-    const std::size_t above =
-        column.node({{"name", "Armature"}, {"scale", {1, 2, 1}}, {"children", {column.joints[0]}}});
-    column.json["scenes"][0]["nodes"] = {above, column.meshNode};
+    Below column({1, 2, 1});
     const std::string root = column.json["nodes"][column.joints[0]]["name"];
     test::expectContains(notesOf(column), "the armature or another object above joint \"" + root +
                                               "\" (apply its scale in the program that made the "
-                                              "file)");
+                                              "file) scaled");
+    column.animate("turn", column.object, "translation", {0.0, 1.0}, {0, 0, 0, 1, 0, 0});
+    test::expectContains(notesOf(column),
+                         ": \"Armature\" above bone \"top\" in the clip \"turn\" scaled");
+}
+
+/// The mesh and all that is below are mirrored then, as they are bound.
+TEST(UnevenGltf, MayBeMirroredIfThatStays) {
+    for (const std::size_t axis : {0, 1, 2}) {
+        SCOPED_TRACE(axis);
+        std::vector<double> mirror(3, 1.0);
+        mirror[axis] = -1.0;
+        Below still(mirror), keyed(mirror), turned(mirror);
+        EXPECT_EQ(notesOf(still), "");
+        std::vector<double> keys = mirror;
+        keys.insert(keys.end(), mirror.begin(), mirror.end());
+        keyed.animate("turn", keyed.object, "scale", {0.0, 1.0}, keys);
+        EXPECT_EQ(notesOf(keyed), "");
+        for (GltfColumn column : {still, keyed})
+            EXPECT_LT(test::blendError(column.save("uneven.gltf")).whole, 1e-5);
+        keys.insert(keys.end(), {1.0, 1.0, 1.0});
+        turned.animate("turn", turned.object, "scale", {0.0, 0.55, 0.75}, keys);
+        test::expectContains(notesOf(turned), "bone \"Armature\" in the clip \"turn\" scaled");
+    }
 }
 
 TEST(UnevenGltf, WarnsAboutShear) {

@@ -10,6 +10,7 @@
 #include "QuadRig.h"
 #include "SkinFiles.h"
 #include "TextFile.h"
+#include "VrmFigure.h"
 #include "WhyRefused.h"
 
 #include <osgSkinCharacter/LoadCharacter>
@@ -265,6 +266,22 @@ TEST(Units, OfGltfAreDoubtedForGiants) {
             << notices.text();
         loadCharacter(file, test::loadOptions("unit=m"));
         EXPECT_EQ(notices.lines(), isDoubted ? 1u : 0u) << notices.text();
+    }
+}
+
+/// The height that is stated is the mesh's, also where the skeleton is taller.
+TEST(Units, OfGltfAreNotDoubtedForGloves) {
+    for (const auto& [scale, isDoubted] : {std::make_pair(1.0, false), {0.01, true}}) {
+        test::VrmFigure figure;
+        const double hand = double(figure.bones["leftHand"]);
+        figure.json["nodes"][figure.bones["hips"]]["scale"] = {scale, scale, scale};
+        nlohmann::json& indices = figure.json["meshes"][0]["primitives"][0]["indices"];
+        indices = figure.accessor("SCALAR", {8.0 * hand, 8.0 * hand + 2, 8.0 * hand + 1}, 5123);
+        const std::string file = figure.save("units_gloves.vrm");
+        const test::Notices notices;
+        loadCharacter(file);
+        EXPECT_EQ(notices.say("the body is 0.0008 m tall"), isDoubted) << notices.text();
+        EXPECT_EQ(notices.say("m tall"), isDoubted) << notices.text();
     }
 }
 

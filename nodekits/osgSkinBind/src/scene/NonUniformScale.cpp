@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace osgSkin {
@@ -46,6 +47,7 @@ public:
 
     struct Entry {
         osgAnimation::Bone* bone;
+        int parent;             ///< its entry; -1: none
         osg::Matrixd matrix;    ///< to skeleton space
         osg::Matrixd local;     ///< to the parent's space
         osg::Matrixd above;     ///< from the parent's space to skeleton space
@@ -56,10 +58,12 @@ public:
     void apply(osg::Transform& node) override {
         if (_depth > 0 && dynamic_cast<osgAnimation::Skeleton*>(&node) != nullptr) return;
         const osg::Matrixd matrix = _matrix, bind = _bind;
+        const int parent = _parent;
         if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node)) {
             const osg::Matrixd local = localOf(*bone);
             _matrix.preMult(local);
-            bones.push_back({bone, _matrix, local, matrix, _bind});
+            bones.push_back({bone, parent, _matrix, local, matrix, _bind});
+            _parent = static_cast<int>(bones.size()) - 1;
             _bind = osg::Matrixd::inverse(bone->getInvBindMatrixInSkeletonSpace());
         } else if (_depth > 0) {
             node.computeLocalToWorldMatrix(_matrix, this);
@@ -69,6 +73,7 @@ public:
         --_depth;
         _matrix = matrix;
         _bind = bind;
+        _parent = parent;
     }
 
 private:
@@ -81,7 +86,7 @@ private:
         return local;
     }
 
-    int _depth = 0;
+    int _depth = 0, _parent = -1;
     osg::Matrixd _matrix, _bind;
 };
 
@@ -98,6 +103,7 @@ bool scalesNonUniformly(osgAnimation::Channel& channel, const osg::Matrixd& bind
     const auto isNonUniform = [&](const osg::Vec3& scale) {
         osg::Matrixd own;
         for (int i = 0; i < 3; ++i) own(i, i) = double(scale[i]) / axis(bind, i).length();
+        if (isMirrored(bind)) own(0, 0) = -own(0, 0);
         return !isUniform(own);
     };
     const auto any = [&](auto* typed) {
@@ -126,6 +132,27 @@ bool shears(osgAnimation::Channel& channel, const BoneMatrices::Entry& entry) {
            });
 }
 
+/// The bone above one that shears whose scale does it, or that bone itself.
+std::string sheared(const std::vector<BoneMatrices::Entry>& bones,
+                    const BoneMatrices::Entry& entry) {
+    for (int above = entry.parent; above >= 0; above = bones[std::size_t(above)].parent)
+        if (!isSimilarity(bones[std::size_t(above)].local))
+            return bones[std::size_t(above)].bone->getName();
+    return entry.bone->getName();
+}
+
+/// The bones without a bind matrix above one whose bind matrix is mirrored, as theirs would be.
+std::set<const osg::Node*> mirroredUnbound(const std::vector<BoneMatrices::Entry>& bones) {
+    std::set<const osg::Node*> result;
+    for (const BoneMatrices::Entry& entry : bones) {
+        if (entry.parent < 0 || !isMirrored(entry.bone->getInvBindMatrixInSkeletonSpace()))
+            continue;
+        const osgAnimation::Bone* const above = bones[std::size_t(entry.parent)].bone;
+        if (above->getInvBindMatrixInSkeletonSpace().isIdentity()) result.insert(above);
+    }
+    return result;
+}
+
 } // namespace
 
 std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
@@ -135,26 +162,36 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
     std::unordered_map<std::string, std::vector<const BoneMatrices::Entry*>> named;
     for (const BoneMatrices::Entry& entry : found.bones)
         named[entry.bone->getName()].push_back(&entry);
-    std::map<std::string, std::string> guilty; // bone -> clip
+    std::map<std::string, std::string> guilty; // bone -> its line
     for (const auto& clip : clips)
         for (const auto& channel : clip->getChannels()) {
             const auto bones = named.find(channel->getTargetName());
             if (bones == named.end()) continue;
             for (const BoneMatrices::Entry* entry : bones->second) {
+                const std::string& name = entry->bone->getName();
                 const osg::Matrixd bind =
                     osg::Matrixd::inverse(entry->bone->getInvBindMatrixInSkeletonSpace()) *
                     osg::Matrixd::inverse(entry->bindAbove);
-                if (scalesNonUniformly(*channel, bind) || shears(*channel, *entry))
-                    guilty.emplace(entry->bone->getName(), clip->getName());
+                const std::string line =
+                    "bone \"" + name + "\" in the clip \"" + clip->getName() + "\"";
+                if (scalesNonUniformly(*channel, bind)) {
+                    guilty.emplace(name, line);
+                } else if (shears(*channel, *entry)) {
+                    const std::string cause = sheared(found.bones, *entry);
+                    guilty.emplace(cause, cause == name ? line : '"' + cause + "\" above " + line);
+                }
             }
         }
     std::vector<std::string> result;
+    const std::set<const osg::Node*> mirrored = mirroredUnbound(found.bones);
     for (const BoneMatrices::Entry& entry : found.bones) {
         const std::string& name = entry.bone->getName();
-        const auto clip = guilty.find(name);
-        if (clip != guilty.end())
-            result.push_back("bone \"" + name + "\" in the clip \"" + clip->second + "\"");
-        else if (!isUniform(entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix))
+        const auto line = guilty.find(name);
+        osg::Matrixd matrix = entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix;
+        if (mirrored.count(entry.bone) != 0) matrix.preMultScale(osg::Vec3d(-1, 1, 1));
+        if (line != guilty.end())
+            result.push_back(line->second);
+        else if (!isUniform(matrix))
             result.push_back("bone \"" + name + "\" in the scene");
     }
     return result;

@@ -126,16 +126,23 @@ void checkSize(Character& character, bool unitIsStated) {
     const double room = unitIsStated ? kStatedRoom : 1.0;
     const double least = isFigure ? kMinHeight / room : 0.0;
     const double most = (isFigure ? kMaxHeight : 2.0 * kMaxHeight) * room;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const glm::dvec3& position : character.body.mesh.positions) {
-        const double z = (toOsg(position) * character.toWorld).z();
-        low = std::min(low, z);
-        high = std::max(high, z);
-    }
-    if (high - low >= least && high - low <= most) return;
+    const auto height = [&](const auto& all, const auto& positionOf) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const auto& each : all) {
+            const double z = (toOsg(positionOf(each)) * character.toWorld).z();
+            low = std::min(low, z);
+            high = std::max(high, z);
+        }
+        return high - low;
+    };
+    const double tall = height(character.body.mesh.positions, [](const auto& at) { return at; });
+    // Gloves alone are small, but not their wearer.
+    const double wearer =
+        height(character.rest.joints, [](const RestJoint& joint) { return joint.centre; });
+    if (std::max(tall, wearer) >= least && tall <= most) return;
     std::ostringstream note;
     note.imbue(std::locale::classic());
-    note << character.file << ": the body is " << std::setprecision(3) << high - low << " m tall"
+    note << character.file << ": the body is " << std::setprecision(3) << tall << " m tall"
          << (unitIsStated ? " by the unit that its file states (glTF: metres)"
                           : ", as the files state no unit and metres are assumed")
          << "; set \"unit\" if they have another";
