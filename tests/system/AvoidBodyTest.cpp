@@ -283,6 +283,30 @@ TEST(AvoidBody, RotatesNoFasterThanTheArm) {
     EXPECT_LT(fastest, 0.8);
 }
 
+TEST(AvoidBody, TurnsBothArmsWhereHandsTouchAndOneCuts) {
+    const RoundBody body;
+    Clip before = body.clip(std::vector<double>(60, 0.0));
+    const auto right = static_cast<std::size_t>(body.roles.joint("RightUpperArm"));
+    for (std::size_t f = 0; f < before.frames; ++f) { // only the left arm cuts the body
+        const auto turn = [&](double forwards, double inwards) {
+            return glm::angleAxis(glm::radians(-forwards), glm::dvec3(1, 0, 0)) *
+                   glm::angleAxis(glm::radians(inwards), glm::dvec3(0, 0, 1));
+        };
+        before.rotations[f * before.joints + body.upper] = turn(32.0, -32.0);
+        before.rotations[f * before.joints + right] = turn(40.0, 20.0);
+    }
+    const auto apart = [&](const Clip& clip) {
+        const auto [left, other] = body.hands(clip, 30);
+        return left - other;
+    };
+    ASSERT_LT(glm::length(apart(before)), 0.08);
+    ASSERT_GT(body.depth(before, 30), 0.01);
+    Clip after = before;
+    EXPECT_GT(body.clear(after).largestDegrees, 2.0);
+    EXPECT_LT(body.depth(after, 30), 0.004);
+    EXPECT_LT(glm::distance(apart(after), apart(before)), 0.02);
+}
+
 TEST(AvoidBody, KeepsAWalkersHandsOutOfAWideBody) {
     const CharacterCase* walk = nullptr;
     for (const CharacterCase& known : test::characterCases())

@@ -113,6 +113,10 @@ std::vector<ArmSample> BodyAvoider::sample(const Clip& clip, std::size_t stride,
                  meets[s] && i <= std::min(samples.size() - 1, k + window); ++i)
                 samples[i].arms[s].isFree = true;
     }
+    for (ArmSample& sample : samples) // a hand goes with the other that it touches
+        if (sample.touch > 0.0)
+            sample.arms[0].isFree = sample.arms[1].isFree =
+                sample.arms[0].isFree || sample.arms[1].isFree;
     return samples;
 }
 
