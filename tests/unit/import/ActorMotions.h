@@ -57,9 +57,10 @@ inline std::vector<glm::dquat> folded(std::size_t joints, unsigned seed = 7) {
 }
 
 struct Difference {
-    double limbs = 0.0;  ///< degrees between a limb of the rig and the actor's, the worst
-    double heads = 0.0;  ///< the same from the hips to the head
-    double lowest = 1e9; ///< of the rig's ankles, above their height at rest
+    double limbs = 0.0;   ///< degrees between a limb of the rig and the actor's, the worst
+    double heads = 0.0;   ///< the same from the hips to the head
+    double lowest = 1e9;  ///< of the rig's ankles, above their height at rest
+    double heading = 0.0; ///< degrees about +y between both bodies in the first sample
 };
 
 /// Compares the rig's motion with the actor's, who initially faces another direction.
@@ -82,9 +83,11 @@ inline Difference compare(const osgSkin::Clip& clip, const osgSkin::RestSkeleton
     glm::dquat turn = kIdentity;
     for (std::size_t f = 0; f < clip.frames; f += 3) {
         const Placed ours = place(clip, rig, f), theirs = place(actor, f);
-        if (f == 0)
-            turn = glm::angleAxis(heading(ours, rig) - heading(theirs, actor.skeleton),
-                                  glm::dvec3(0, 1, 0));
+        if (f == 0) {
+            const double angle = heading(ours, rig) - heading(theirs, actor.skeleton);
+            turn = glm::angleAxis(angle, glm::dvec3(0, 1, 0));
+            result.heading = glm::degrees(std::abs(std::remainder(angle, 2.0 * M_PI)));
+        }
         for (const auto& ends : kBones) {
             const double angle =
                 angleBetween(bone(ours, rig, ends[0], ends[1]),

@@ -76,6 +76,26 @@ TEST_F(StandingPose, ReplacesBonesAlongOneAxis) {
                        "counted from sample");
 }
 
+TEST_F(StandingPose, KeepsHeadingsOfTheFile) {
+    Motion turned = actor;
+    const glm::dquat turn = turnDegrees(60, {0, 1, 0});
+    for (std::size_t f = 0; f < turned.frames; ++f) {
+        turned.rotations[f * joints] = turn * turned.rotations[f * joints];
+        turned.rootPositions[f] = turn * turned.rootPositions[f];
+    }
+    for (const auto& zero : {folded(joints), alongOneAxis(actor.skeleton)}) {
+        const Clip clip = retarget(throughBvh(rebasedFrom(turned, zero)), rig);
+        const Difference difference = compare(clip, rig, turned);
+        EXPECT_LT(difference.limbs, 1.0);
+        EXPECT_LT(difference.heading, 1.0);
+        const auto way = [](const std::vector<glm::dvec3>& path) {
+            return path.back() - path.front();
+        };
+        EXPECT_LT(glm::distance(way(clip.rootPositions), way(turned.rootPositions)),
+                  0.05 * rig.joints[0].centre.y);
+    }
+}
+
 TEST_F(StandingPose, PrefersCalibrationPose) {
     Motion calibrated = actor;
     calibrated.frames += 1;

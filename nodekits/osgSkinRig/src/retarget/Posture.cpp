@@ -107,6 +107,7 @@ std::optional<Posture> PostureJoints::measure(const std::vector<glm::dvec3>& pos
     const glm::dvec3 across = at(_legs[0].upper) - at(_legs[1].upper);
     result.trunk = top - result.hips;
     if (!(glm::length(result.trunk) > 0.0 && glm::length(across) > 0.0)) return std::nullopt;
+    result.left = glm::normalize(across);
     result.lean = degreesBetween(result.trunk, result.up);
     result.tilt = std::abs(90.0 - degreesBetween(across, result.up));
 

@@ -25,6 +25,7 @@ struct Posture {
     glm::dvec3 up{0.0};     ///< unit, from the feet to the hips along the legs
     glm::dvec3 trunk{0.0};  ///< from the hips to the head, neck or shoulders
     glm::dvec3 hips{0.0};   ///< middle of both hip joints
+    glm::dvec3 left{0.0};   ///< unit, from the right hip joint to the left one
     double leg = 0.0;       ///< length, hip to ankle along the bones
     double lowest = 0.0;    ///< along `up`: the lower ankle
     double knees = 0.0;     ///< degrees of flexion of the more bent knee
@@ -171,7 +172,8 @@ struct StandingPose {
 
 /// Finds that pose: the zero pose where the actor stands in it, by legs, trunk and hips; else the
 /// rig's rest pose where the skeletons are the same; else the standing sample that is nearest to a
-/// calibration pose, or a lying one, rotated upright.
+/// calibration pose, or a lying one, rotated upright. That sample is turned to the front of its
+/// space (+z where y is up, -y where z is), so that headings remain the file's.
 /// \param motion in any zero pose
 /// \param rig at rest
 /// \param map of their joints

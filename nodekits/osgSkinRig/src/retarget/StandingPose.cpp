@@ -315,11 +315,13 @@ public:
         return result;
     }
 
-    /// A sample's pose, rotated upright if the actor lies in it.
+    /// A sample's pose, rotated upright if the actor lies in it, and to the front.
     /// \param up axis, 0 if unknown
     ZeroPose fromSample(const Sample& sample, int up) {
         pose(sample.frame);
-        return from(sample.posture, sample.axis == 0 ? 0 : up, _motion.rootPositions[sample.frame]);
+        const int to = sample.axis == 0 ? 0 : up;
+        const glm::dvec3& root = _motion.rootPositions[sample.frame];
+        return facingFront(from(sample.posture, to, root), sample, to != 0 ? to : sample.axis);
     }
 
     /// The zero pose, rotated upright, with the trunk over the legs.
@@ -360,6 +362,19 @@ private:
             root = turn * root;
         }
         return {_world, root - (hips - glm::dot(hips, axis) * axis)};
+    }
+
+    /// A sample's pose from from(), turned about the axis `up` so that left is +x.
+    ZeroPose facingFront(ZeroPose pose, const Sample& sample, int up) {
+        if (up != kPlusY && up != kPlusZ) return pose;
+        glm::dvec3 left = sample.posture.left;
+        if (up != sample.axis)
+            left = shortestRotation(alongAxis(sample.axis), alongAxis(up)) * left;
+        const double back = up == kPlusY ? -left.z : left.y; // behind the right side
+        const glm::dquat turn = glm::angleAxis(-std::atan2(back, left.x), alongAxis(up));
+        for (glm::dquat& q : pose.world) q = glm::normalize(turn * q);
+        pose.root = turn * pose.root;
+        return pose;
     }
 
     void pose(std::size_t frame) {
