@@ -3,6 +3,7 @@
 
 #include <osgSkin/GlmOsg>
 
+#include <utility>
 #include <vector>
 
 namespace osgSkin {
@@ -15,6 +16,7 @@ public:
         if (getNodePath().size() > 1 && dynamic_cast<osgAnimation::Skeleton*>(&node)) return;
         osgAnimation::BoneMapVisitor::apply(node);
     }
+    osgAnimation::BoneMap take() { return std::move(_map); }
 };
 
 } // namespace
@@ -22,7 +24,7 @@ public:
 osgAnimation::BoneMap bonesOf(osgAnimation::Skeleton& skeleton) {
     OwnBones visitor;
     skeleton.accept(visitor);
-    return visitor.getBoneMap();
+    return visitor.take();
 }
 
 BoneReader::BoneReader(const std::vector<BoundJoint>& joints, osgAnimation::Skeleton& skeleton,

@@ -10,9 +10,10 @@
 #include <osg/NodeVisitor>
 #include <osg/observer_ptr>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace osgSkin {
@@ -100,7 +101,7 @@ class Constraints::Bones {
 public:
     Bones(osgAnimation::Skeleton& skeleton, const std::vector<Constraint>& constraints)
         : _skeleton(&skeleton) {
-        std::map<const Bone*, std::size_t> places;
+        Places places;
         std::vector<Entry> entries;
         const osgAnimation::BoneMap bones = bonesOf(skeleton);
         for (const Constraint& constraint : constraints) {
@@ -110,15 +111,19 @@ public:
             if (places.emplace(bone->second, entries.size()).second)
                 entries.push_back({bone->second, source->second, &constraint});
         }
+        for (const Entry& entry : entries) {
+            _observed.emplace_back(entry.bone);
+            if (places.count(entry.source) == 0) _observed.emplace_back(entry.source);
+        }
+        _entries.reserve(entries.size());
         std::vector<bool> isOpen(entries.size(), true);
         for (std::size_t i = 0; i < entries.size(); ++i) add(i, entries, places, isOpen);
     }
 
     /// Whether all bones are still there.
     bool fits(const osgAnimation::Skeleton& skeleton) const {
-        for (const Entry& entry : _entries)
-            if (!entry.bone.valid() || !entry.source.valid()) return false;
-        return &skeleton == _skeleton;
+        return &skeleton == _skeleton && std::all_of(_observed.begin(), _observed.end(),
+                                                     [](const auto& bone) { return bone.valid(); });
     }
 
     void apply() const {
@@ -128,13 +133,14 @@ public:
 
 private:
     struct Entry {
-        osg::observer_ptr<Bone> bone, source;
+        Bone *bone, *source; ///< valid if those in _observed are
         const Constraint* constraint;
     };
+    using Places = std::unordered_map<const Bone*, std::size_t>;
 
     /// Adds what a constraint depends on, and then it. Chains may be long: no recursion.
-    void add(std::size_t index, const std::vector<Entry>& entries,
-             const std::map<const Bone*, std::size_t>& places, std::vector<bool>& isOpen) {
+    void add(std::size_t index, const std::vector<Entry>& entries, const Places& places,
+             std::vector<bool>& isOpen) {
         std::vector<std::pair<std::size_t, bool>> stack{{index, false}}; // and whether it is next
         while (!stack.empty()) {
             const auto [top, isNext] = stack.back();
@@ -149,18 +155,19 @@ private:
                     stack.emplace_back(place->second, false);
             };
             if (entry.constraint->kind == Constraint::Kind::Aim)
-                for (const Bone* of : {entry.bone.get(), entry.source.get()})
+                for (const Bone* of : {entry.bone, entry.source})
                     for (const Bone* b = of->getBoneParent(); b; b = b->getBoneParent()) addOf(b);
-            addOf(entry.source.get());
+            addOf(entry.source);
         }
     }
 
     const osgAnimation::Skeleton* _skeleton;
     std::vector<Entry> _entries;
+    std::vector<osg::observer_ptr<Bone>> _observed; ///< all bones of the entries
 };
 
 std::vector<bool> inCircles(const std::vector<Constraint>& constraints) {
-    std::map<std::string, std::size_t> places;
+    std::unordered_map<std::string_view, std::size_t> places;
     for (std::size_t i = 0; i < constraints.size(); ++i)
         places.emplace(constraints[i].joint.name, i);
     std::vector<std::size_t> next; // the source's constraint
