@@ -29,15 +29,15 @@ constexpr std::size_t kMaxValues = 8; ///< that are kept of a record; a property
 }
 
 /// Whether an array's numbers are of use.
-bool isReadArray(const std::string& name) {
+bool isReadArray(std::string_view name) {
     return name == "TransformLink" || name.rfind("Key", 0) == 0; // of a curve
 }
 
 /// Whether a record at a depth is of use.
-bool isNeeded(const std::string& name, int depth, bool isObject) {
-    static const char* const kObjects[] = {"Model",          "Geometry",       "Deformer",
-                                           "AnimationStack", "AnimationLayer", "AnimationCurveNode",
-                                           "AnimationCurve"};
+bool isNeeded(std::string_view name, int depth, bool isObject) {
+    static constexpr std::string_view kObjects[] = {
+        "Model",          "Geometry",           "Deformer",      "AnimationStack",
+        "AnimationLayer", "AnimationCurveNode", "AnimationCurve"};
     if (depth == 0) return name == "Objects" || name == "Connections";
     if (depth == 2) return name == "Properties70" || isReadArray(name);
     if (depth > 2 || !isObject) return true;
@@ -45,7 +45,7 @@ bool isNeeded(const std::string& name, int depth, bool isObject) {
 }
 
 /// Whether a record's children are of use.
-bool isWhole(const std::string& name, int depth) {
+bool isWhole(std::string_view name, int depth) {
     return depth != 1 || name != "Geometry";
 }
 
@@ -185,7 +185,7 @@ private:
     /// \return false at the end of a list of records
     bool readRecord(std::vector<FbxRecord>* to, int depth, bool isObject, std::size_t last) {
         const std::size_t end = offset(), values = offset(), size = offset();
-        std::string name(take(number<unsigned char>()));
+        const std::string_view name = take(number<unsigned char>());
         if (end == 0) return false;
         if (end > last || end < _at || size > end - _at) throw Malformed();
         if (depth > kMaxDepth) failDepth(_path);
@@ -193,7 +193,7 @@ private:
         const bool isObjects = depth == 0 && name == "Objects";
         FbxRecord unused;
         FbxRecord& record = to != nullptr ? to->emplace_back() : unused;
-        record.name = std::move(name);
+        record.name = name;
         const std::size_t children = _at + size;
         if (to != nullptr) record.values.reserve(std::min(values, kMaxValues));
         for (std::size_t v = 0; v < values && _at < children; ++v) {
@@ -350,13 +350,13 @@ private:
 
 } // namespace
 
-const FbxRecord* FbxRecord::find(const std::string& wanted) const {
+const FbxRecord* FbxRecord::find(std::string_view wanted) const {
     const auto found = std::find_if(records.begin(), records.end(),
                                     [&](const FbxRecord& record) { return record.name == wanted; });
     return found == records.end() ? nullptr : &*found;
 }
 
-const std::vector<double>& FbxRecord::list(const std::string& wanted) const {
+const std::vector<double>& FbxRecord::list(std::string_view wanted) const {
     static const std::vector<double> none;
     const FbxRecord* found = find(wanted);
     if (found == nullptr) return none;
@@ -364,7 +364,7 @@ const std::vector<double>& FbxRecord::list(const std::string& wanted) const {
     return found->numbers;
 }
 
-const FbxRecord* FbxRecord::property(const std::string& wanted) const {
+const FbxRecord* FbxRecord::property(std::string_view wanted) const {
     const FbxRecord* const properties = find("Properties70");
     if (properties == nullptr) return nullptr;
     for (const FbxRecord& record : properties->records)

@@ -26,14 +26,14 @@ struct FbxRecord {
     std::vector<FbxRecord> records;
 
     /// The first record with a name; null if there is none.
-    const FbxRecord* find(const std::string& name) const;
+    const FbxRecord* find(std::string_view name) const;
 
     /// The numbers of a child record that is an array of a curve's, or "TransformLink"; empty if
     /// there is none.
-    const std::vector<double>& list(const std::string& name) const;
+    const std::vector<double>& list(std::string_view name) const;
 
     /// A property ("Lcl Rotation") of the child record "Properties70"; null if there is none.
-    const FbxRecord* property(const std::string& name) const;
+    const FbxRecord* property(std::string_view name) const;
 };
 
 /// The parts of an FBX file that Assimp does not expose: objects of the few kinds that place and
