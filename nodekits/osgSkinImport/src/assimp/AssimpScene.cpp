@@ -460,7 +460,7 @@ SourceScene readAssimpScene(const std::string& path, const ReadLimits& limits) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     SourceScene result;
     result.bytes = requireReadable(path, limits);
-    const std::string fbx = editFile(path, limits, importer);
+    const std::string& fbx = editFile(path, limits, importer);
     FbxModels models(FbxDocument::read(fbx, path));
     models.checkNodes(path, limits);
     const aiScene* scene = nullptr;

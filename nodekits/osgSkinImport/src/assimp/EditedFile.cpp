@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "assimp/EditedFile.h"
 
-#include "assimp/FbxCurve.h"
+#include "assimp/ColladaCurves.h"
 #include "assimp/FbxDocument.h"
+#include "assimp/XmlText.h"
 #include "files/FileText.h"
 
 #include <osgDB/FileNameUtils>
@@ -12,14 +13,8 @@
 #include <assimp/MemoryIOWrapper.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstdint>
-#include <locale>
 #include <map>
-#include <optional>
-#include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,270 +22,6 @@
 
 namespace osgSkin {
 namespace {
-
-/// A part of an XML file, to read or to replace.
-struct XmlValue {
-    std::size_t begin = 0, size = 0;
-
-    std::string_view of(std::string_view xml) const { return xml.substr(begin, size); }
-};
-
-/// Finds the value of an attribute of the element whose start tag begins at `tag`.
-std::optional<XmlValue> findAttribute(std::string_view xml, std::size_t tag,
-                                      std::string_view name) {
-    const std::string_view start = xml.substr(0, xml.find_first_of("<>", tag + 1));
-    for (auto at = start.find(name, tag); at != start.npos; at = start.find(name, at + 1)) {
-        const std::size_t sign = start.find_first_not_of(" \t\r\n", at + name.size());
-        if (sign == start.npos || start[sign] != '=' ||
-            std::isspace(static_cast<unsigned char>(start[at - 1])) == 0)
-            continue;
-        const std::size_t quote = start.find_first_not_of(" \t\r\n", sign + 1);
-        if (quote == start.npos || (start[quote] != '"' && start[quote] != '\'')) continue;
-        const std::size_t close = start.find(start[quote], quote + 1);
-        if (close != start.npos) return XmlValue{quote + 1, close - quote - 1};
-    }
-    return std::nullopt;
-}
-
-/// What to replace in a text, by place: its size, and the text for it.
-using TextEdits = std::map<std::size_t, std::pair<std::size_t, std::string>>;
-
-constexpr double kBeforeStep = 1e-3;  ///< seconds before a step: the last of the old value
-constexpr std::size_t kMaxStride = 4; ///< more is a matrix
-constexpr double kMinHandle = 1e-6;   ///< of a segment: a handle that points straight up
-
-struct Source {
-    std::optional<XmlValue> text, count, samples; ///< the array's, the array's, the accessor's
-    std::size_t stride = 1;
-};
-
-/// A sampler's sources, by their semantic.
-struct Sampler {
-    std::map<std::string_view, std::string_view> inputs;
-    bool isAngle = false;
-
-    std::string_view operator[](std::string_view semantic) const {
-        const auto found = inputs.find(semantic);
-        return found == inputs.end() ? std::string_view() : found->second;
-    }
-};
-
-std::vector<std::string_view> wordsOf(std::string_view text) {
-    std::vector<std::string_view> result;
-    constexpr const char* kSpaces = " \t\r\n";
-    for (std::size_t at = 0; (at = text.find_first_not_of(kSpaces, at)) != text.npos;) {
-        const std::size_t end = std::min(text.find_first_of(kSpaces, at), text.size());
-        result.push_back(text.substr(at, end - at));
-        at = end;
-    }
-    return result;
-}
-
-/// Samples a Collada file's curves 30 times a second where its keys are far apart and Assimp's
-/// straight lines and shortest rotations between them are not what the file says: curves with
-/// BEZIER, HERMITE or STEP interpolation, and angles. Reports curves that stay as they are.
-class Curves {
-public:
-    Curves(const std::string& path, std::string_view xml, const ReadLimits& limits)
-        : _path(path), _xml(xml), _samples(limits.samplesOf(xml.size())) {
-        constexpr std::string_view kBegin = "<library_animations", kEnd = "</library_animations";
-        for (std::size_t end = 0, at = 0; (at = xml.find(kBegin, end)) != xml.npos; read(at, end))
-            end = std::min(xml.find(kEnd, at), xml.size());
-    }
-
-    /// \throw osgSkin::Error if there would be more samples than the file has room for
-    TextEdits sample() {
-        std::map<std::string_view, std::vector<const Sampler*>> byTimes;
-        for (const auto& [id, sampler] : _samplers) byTimes[sampler["INPUT"]].push_back(&sampler);
-        for (const auto& [times, samplers] : byTimes) sample(times, samplers);
-        if (_isLeft)
-            warn(_path, "curves that are neither BEZIER, HERMITE nor STEP, or without tangents for "
-                        "each key, are read as straight lines between their keys: export a key for "
-                        "each frame");
-        return std::move(_edits);
-    }
-
-private:
-    void read(std::size_t at, std::size_t end) {
-        Source* source = nullptr;
-        Sampler* sampler = nullptr;
-        const auto attribute = [this](std::size_t tag, std::string_view name) {
-            const auto value = findAttribute(_xml, tag, name);
-            return value ? value->of(_xml) : std::string_view();
-        };
-        const auto target = [&](std::size_t tag) { // without its #
-            const std::string_view url = attribute(tag, "source");
-            return url.empty() ? url : url.substr(1);
-        };
-        for (at = _xml.find('<', at); at < end; at = _xml.find('<', at + 1)) {
-            const std::string_view name =
-                _xml.substr(at + 1, _xml.find_first_of(" \t\r\n/>", at + 1) - at - 1);
-            if (name == "source") source = &_sources[attribute(at, "id")];
-            if (name == "sampler") sampler = &_samplers[attribute(at, "id")];
-            if (name == "channel" && _samplers.count(target(at)) != 0) {
-                const std::string_view moved = attribute(at, "target");
-                const std::size_t dot = moved.rfind('.');
-                _samplers[target(at)].isAngle = dot != moved.npos && moved.substr(dot) == ".ANGLE";
-            }
-            if (name == "input" && sampler != nullptr)
-                sampler->inputs.emplace(attribute(at, "semantic"), target(at));
-            if (source == nullptr) continue;
-            if (name == "float_array" || name == "Name_array") {
-                const std::size_t begin = std::min(_xml.find('>', at), end - 1) + 1;
-                source->text = {begin, std::min(_xml.find('<', begin), end) - begin};
-                source->count = findAttribute(_xml, at, "count");
-            }
-            if (name == "accessor") {
-                source->samples = findAttribute(_xml, at, "count");
-                double stride = 1.0;
-                parseNumber(attribute(at, "stride"), stride);
-                source->stride = stride >= 1.0 && stride <= 1000.0 ? std::size_t(stride) : 0;
-            }
-        }
-    }
-
-    /// A source's words; none if it does not exist or lacks what is edited.
-    std::vector<std::string_view> words(std::string_view id) const {
-        const auto source = _sources.find(id);
-        if (source == _sources.end() || !source->second.text || !source->second.count ||
-            !source->second.samples)
-            return {};
-        return wordsOf(source->second.text->of(_xml));
-    }
-
-    /// A source's numbers; none if one of them is none.
-    std::vector<double> numbers(std::string_view id) const {
-        std::vector<double> result;
-        for (const std::string_view word : words(id))
-            if (!parseNumber(word, result.emplace_back()) || !std::isfinite(result.back()))
-                return {};
-        return result;
-    }
-
-    /// Samples all curves with the same times.
-    void sample(std::string_view input, const std::vector<const Sampler*>& samplers) {
-        const std::vector<double> times = numbers(input);
-        bool isSparse = false, isCurved = false, hasSteps = false;
-        for (std::size_t k = 1; k < times.size(); ++k) {
-            if (!(times[k] > times[k - 1])) return;
-            isSparse = isSparse || times[k] - times[k - 1] > kDenseKeys;
-        }
-        if (!isSparse) return;
-        for (const Sampler* const sampler : samplers) {
-            isCurved = isCurved || sampler->isAngle;
-            for (const std::string_view kind : words((*sampler)["INTERPOLATION"])) {
-                isCurved = isCurved || kind != "LINEAR";
-                hasSteps = hasSteps || kind == "STEP";
-            }
-        }
-        if (!isCurved) return;
-        std::map<std::string_view, std::vector<FbxCurve>> curves; // by output
-        bool isFree = _sampled.insert(input).second;
-        for (const Sampler* const sampler : samplers) {
-            const std::string_view output = (*sampler)["OUTPUT"];
-            if (curves.count(output) != 0) continue;
-            std::vector<FbxCurve>& own = curves[output] = curvesOf(*sampler, times);
-            isFree = _sampled.insert(output).second && isFree && !own.empty();
-        }
-        _isLeft = _isLeft || !isFree;
-        if (!isFree) return;
-        const std::vector<double> at = samplesOf(times, curves.size(), hasSteps);
-        replace(input, at, {});
-        for (const auto& [output, axes] : curves) replace(output, at, axes);
-    }
-
-    std::vector<double> samplesOf(const std::vector<double>& times, std::size_t curves,
-                                  bool hasSteps) {
-        std::vector<double> result{times.front()};
-        for (std::size_t k = 1; k < times.size(); ++k) {
-            const double begin = times[k - 1], duration = times[k] - begin;
-            const double pieces = std::ceil(duration / kSampleStep - 1e-6);
-            if (!((pieces + 1.0) * double(curves + 1) * kMaxStride < double(_samples)))
-                failFile(_path, "a clip lasts " + std::to_string(duration) +
-                                    " s between two keys, expected fewer samples (option "
-                                    "maxSamples)");
-            _samples -= std::size_t(pieces + 1.0) * (curves + 1) * kMaxStride;
-            for (double piece = 1.0; piece < pieces; piece += 1.0)
-                result.push_back(begin + piece / pieces * duration);
-            if (hasSteps && duration > 4.0 * kBeforeStep) result.push_back(times[k] - kBeforeStep);
-            result.push_back(times[k]);
-        }
-        return result;
-    }
-
-    /// The curve of each of an output's numbers; none if they cannot be sampled.
-    std::vector<FbxCurve> curvesOf(const Sampler& sampler, const std::vector<double>& times) const {
-        const std::string_view output = sampler["OUTPUT"];
-        const std::vector<std::string_view> kinds = words(sampler["INTERPOLATION"]);
-        const std::vector<double> values = numbers(output), in = numbers(sampler["IN_TANGENT"]),
-                                  out = numbers(sampler["OUT_TANGENT"]);
-        const auto source = _sources.find(output);
-        const std::size_t n = source == _sources.end() ? 0 : source->second.stride;
-        if (n == 0 || n > kMaxStride || values.size() != n * times.size()) return {};
-        // Tangents have pairs of time and value, or values alone, a third of the time away.
-        const std::size_t pair = out.size() == 2 * values.size() ? 2 : 1;
-        std::vector<FbxCurve> result;
-        for (std::size_t axis = 0; axis < n; ++axis) {
-            std::vector<FbxCurve::Key> keys(times.size());
-            for (std::size_t k = 0; k < keys.size(); ++k) {
-                FbxCurve::Key& key = keys[k];
-                key.time = times[k];
-                key.value = values[n * k + axis];
-                const std::string_view kind = k < kinds.size() ? kinds[k] : "LINEAR";
-                if (kind == "STEP") key.kind = FbxCurve::Key::Kind::Constant;
-                if (kind == "LINEAR" || kind == "STEP" || k + 1 == keys.size()) continue;
-                const bool isHermite = kind == "HERMITE";
-                if ((!isHermite && kind != "BEZIER") || out.size() != pair * values.size() ||
-                    in.size() != out.size())
-                    return {};
-                const double next = values[n * (k + 1) + axis], duration = times[k + 1] - times[k];
-                const std::size_t from = pair * (n * k + axis), to = from + pair * n;
-                key.kind = FbxCurve::Key::Kind::Cubic;
-                const double factor = isHermite ? 1.0 / 3.0 : 1.0;
-                if (pair == 2) {
-                    key.weight = (factor * out[from] - (isHermite ? 0.0 : times[k])) / duration;
-                    key.nextWeight =
-                        (isHermite ? factor * in[to] : times[k + 1] - in[to]) / duration;
-                }
-                key.weight = std::clamp(key.weight, kMinHandle, 1.0);
-                key.nextWeight = std::clamp(key.nextWeight, kMinHandle, 1.0);
-                const double rise = factor * out[from + pair - 1] - (isHermite ? 0.0 : key.value);
-                const double fall =
-                    isHermite ? factor * in[to + pair - 1] : next - in[to + pair - 1];
-                key.slope = rise / (key.weight * duration);
-                key.nextSlope = fall / (key.nextWeight * duration);
-            }
-            result.emplace_back(std::move(keys));
-        }
-        return result;
-    }
-
-    /// Replaces a source's array by its curves at some times, or by the times.
-    void replace(std::string_view id, const std::vector<double>& times,
-                 const std::vector<FbxCurve>& curves) {
-        const Source& source = _sources.at(id);
-        std::ostringstream text;
-        text.imbue(std::locale::classic());
-        text.precision(12);
-        for (const double time : times) {
-            if (curves.empty()) text << time << ' ';
-            for (const FbxCurve& curve : curves) text << curve.at(time) << ' ';
-        }
-        const std::size_t n = std::max<std::size_t>(curves.size(), 1);
-        _edits[source.text->begin] = {source.text->size, text.str()};
-        _edits[source.count->begin] = {source.count->size, std::to_string(n * times.size())};
-        _edits[source.samples->begin] = {source.samples->size, std::to_string(times.size())};
-    }
-
-    const std::string& _path;
-    const std::string_view _xml;
-    std::size_t _samples; ///< how many more numbers may be added
-    std::map<std::string_view, Source> _sources;
-    std::map<std::string_view, Sampler> _samplers;
-    std::set<std::string_view> _sampled; ///< sources
-    bool _isLeft = false;
-    TextEdits _edits;
-};
 
 /// Collada's controllers, of which Assimp's reader fails on morphs.
 class Controllers {
@@ -371,17 +102,6 @@ private:
     std::map<std::string, Controller> _known; ///< by "#id"
 };
 
-void applyEdits(const TextEdits& edits, std::string& text) {
-    std::string result;
-    std::size_t copied = 0;
-    for (const auto& [at, edit] : edits) {
-        if (at < copied) continue; // within what is removed
-        result.append(text, copied, at - copied).append(edit.second);
-        copied = at + edit.first;
-    }
-    text = std::move(result.append(text, copied));
-}
-
 /// Refuses depths at which Assimp exhausts the stack.
 void checkDepth(const std::string& path, std::string_view xml, const ReadLimits& limits) {
     const std::size_t most = limits.depth + 64; // of nodes, and of what is above and in them
@@ -411,6 +131,7 @@ public:
     EditedFile(std::string path, std::string bytes)
         : _path(std::move(path)), _bytes(std::move(bytes)) {}
 
+    const std::string& bytes() const { return _bytes; }
     bool Exists(const char* file) const override { return _disk.Exists(file); }
     char getOsSeparator() const override { return _disk.getOsSeparator(); }
     void Close(Assimp::IOStream* stream) override { _disk.Close(stream); }
@@ -427,17 +148,17 @@ private:
 
 } // namespace
 
-std::string editFile(const std::string& path, const ReadLimits& limits,
-                     Assimp::Importer& importer) {
+const std::string& editFile(const std::string& path, const ReadLimits& limits,
+                            Assimp::Importer& importer) {
+    static const std::string none;
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    if (extension != "fbx" && extension != "dae") return {};
-    std::string bytes = readText(path, limits), fbx;
+    if (extension != "fbx" && extension != "dae") return none;
+    std::string bytes = readText(path, limits);
     if (extension == "fbx") {
         renamePropertyConnections(bytes);
-        fbx = bytes;
     } else {
         checkDepth(path, bytes, limits);
-        TextEdits edits = Curves(path, bytes, limits).sample();
+        TextEdits edits = sampleCurves(path, bytes, limits);
         if (bytes.find("<authoring_tool>Assimp") != std::string::npos)
             warn(path, "written by Assimp, which loses keys of animations or writes their times in "
                        "milliseconds");
@@ -445,8 +166,9 @@ std::string editFile(const std::string& path, const ReadLimits& limits,
             warn(path, std::to_string(morphs) + " morph controllers are not supported; ignored");
         if (!edits.empty()) applyEdits(edits, bytes);
     }
-    importer.SetIOHandler(new EditedFile(path, std::move(bytes)));
-    return fbx;
+    auto* const file = new EditedFile(path, std::move(bytes));
+    importer.SetIOHandler(file); // which owns it
+    return extension == "fbx" ? file->bytes() : none;
 }
 
 } // namespace osgSkin

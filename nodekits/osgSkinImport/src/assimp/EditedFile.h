@@ -14,9 +14,10 @@ namespace osgSkin {
 
 /// Edits an FBX or Collada file in memory where Assimp does not read it as it is.
 /// \param importer will read the edited bytes; unchanged for other formats
-/// \return an FBX file's bytes; else empty
+/// \return an FBX file's bytes, which the importer keeps; else empty
 /// \throw osgSkin::Error if the file cannot be read, or Assimp would not return
-std::string editFile(const std::string& path, const ReadLimits& limits, Assimp::Importer& importer);
+const std::string& editFile(const std::string& path, const ReadLimits& limits,
+                            Assimp::Importer& importer);
 
 } // namespace osgSkin
 
