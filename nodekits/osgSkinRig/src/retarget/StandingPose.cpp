@@ -428,9 +428,10 @@ int upOf(const Motion& motion, RetargetOptions::Up stated, const std::optional<P
 /// Where the skeletons are the same, the motion's rotations are made relative to the rig's rest
 /// pose.
 /// \param isStated whether the caller says which axis is up
-void countFromRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
-                  const SameSkeleton& same, const std::optional<Posture>& rest,
-                  const std::optional<Posture>& zero, int up, bool isStated, StandingPose& result) {
+void countFromRig(const RestSkeleton& rig, const RestSkeleton& motion,
+                  const std::vector<int>& motionJoint, const SameSkeleton& same,
+                  const std::optional<Posture>& rest, const std::optional<Posture>& zero, int up,
+                  bool isStated, StandingPose& result) {
     if (!rest || !rest->stands()) {
         result.copied = same;
         result.notes.emplace_back("the rig has the motion's joints and rests in no standing pose: "
@@ -446,10 +447,16 @@ void countFromRig(const RestSkeleton& rig, const std::vector<int>& motionJoint,
     if (same.restsAlike && isIdentity(turn)) return; // the zero pose is the rig's rest pose
     std::vector<glm::dquat> world = same.toRigRest;
     for (glm::dquat& q : world) q = glm::normalize(turn * q);
-    std::size_t root = 0; // the rig's joint that the motion's root drives, or else its own root
-    for (std::size_t j = 0; j < rig.joints.size(); ++j)
-        if (motionJoint[j] == 0) root = j;
-    const glm::dvec3 place = turn * rig.joints[root].centre / same.scale;
+    // The rig's joint that the motion's root drives, or else the first that is driven.
+    const auto isRoot = [](int driver) { return driver == 0; };
+    const auto isDriven = [](int driver) { return driver >= 0; };
+    auto driven = std::find_if(motionJoint.begin(), motionJoint.end(), isRoot);
+    if (driven == motionJoint.end())
+        driven = std::find_if(motionJoint.begin(), motionJoint.end(), isDriven);
+    std::vector<glm::dvec3> fromRoot;
+    worldPositions(motion, world, glm::dvec3(0.0), fromRoot);
+    const auto joint = static_cast<std::size_t>(driven - motionJoint.begin());
+    const glm::dvec3 place = turn * rig.joints[joint].centre / same.scale - fromRoot[at(*driven)];
     result.counted = ZeroPose{std::move(world), place};
     result.notes.emplace_back("the rig has the motion's joints: local rotations are copied");
 }
@@ -478,7 +485,8 @@ StandingPose findStandingPose(const Motion& motion, const RestSkeleton& rig, con
     if (rigJoints.complete()) {
         const std::optional<Posture> rest = rigJoints.measure(centresOf(rig));
         if (same) {
-            countFromRig(rig, map.motionJoint, *same, rest, zero, up, isStated, result);
+            countFromRig(rig, motion.skeleton, map.motionJoint, *same, rest, zero, up, isStated,
+                         result);
             return result;
         }
         if (!rest || !rest->stands())
