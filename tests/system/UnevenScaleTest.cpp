@@ -86,6 +86,19 @@ TEST(UnevenGltf, MayBeMirroredIfThatStays) {
     }
 }
 
+/// As sockets for weapons and controls of rigs often are.
+TEST(UnevenGltf, DoesNotMatterForBonesWithoutSkin) {
+    for (const bool hasSkin : {false, true}) {
+        GltfColumn column = uneven(false, 1.0);
+        if (!hasSkin)
+            column.attributes()["JOINTS_0"] =
+                column.accessor("VEC4", std::vector<double>(4 * 24, 0.0), 5121);
+        column.animate("turn", column.joints[2], "scale", {0.0, 1.0}, {1, 1, 1, 1, 2, 1});
+        EXPECT_EQ(notesOf(column).find("scaled non-uniformly") != std::string::npos, hasSkin)
+            << notesOf(column);
+    }
+}
+
 TEST(UnevenGltf, WarnsAboutShear) {
     test::expectContains(notesOf(uneven(false, 2.0)),
                          "bone \"top\" in the clip \"turn\" scaled non-uniformly");

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 namespace osgSkin {
@@ -156,12 +155,14 @@ std::set<const osg::Node*> mirroredUnbound(const std::vector<BoneMatrices::Entry
 } // namespace
 
 std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
-                                             const osgAnimation::AnimationList& clips) {
+                                             const osgAnimation::AnimationList& clips,
+                                             const std::set<std::string>& unused) {
     BoneMatrices found;
     skeleton.accept(found);
     std::unordered_map<std::string, std::vector<const BoneMatrices::Entry*>> named;
     for (const BoneMatrices::Entry& entry : found.bones)
-        named[entry.bone->getName()].push_back(&entry);
+        if (unused.count(entry.bone->getName()) == 0)
+            named[entry.bone->getName()].push_back(&entry);
     std::map<std::string, std::string> guilty; // bone -> its line
     for (const auto& clip : clips)
         for (const auto& channel : clip->getChannels()) {
@@ -191,7 +192,7 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
         if (mirrored.count(entry.bone) != 0) matrix.preMultScale(osg::Vec3d(-1, 1, 1));
         if (line != guilty.end())
             result.push_back(line->second);
-        else if (!isUniform(matrix))
+        else if (unused.count(name) == 0 && !isUniform(matrix))
             result.push_back("bone \"" + name + "\" in the scene");
     }
     return result;

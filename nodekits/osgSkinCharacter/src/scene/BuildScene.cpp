@@ -50,6 +50,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -281,10 +282,19 @@ std::string inUsersWords(const std::string& found) {
            "\" (apply its scale in the program that made the file)";
 }
 
+/// The joints whose rotation no vertex takes, such as sockets and controls.
+std::set<std::string> unusedJoints(const Binding& binding) {
+    std::set<std::string> result;
+    for (const BoundJoint& joint : binding.joints) result.insert(joint.name);
+    for (const Influence& influence : binding.influences)
+        result.erase(binding.joints[influence.joint].name);
+    return result;
+}
+
 /// A rigged model's own animations, as the character's motions.
 void takeAnimations(const CharacterSource& source, Character& character) {
-    const std::vector<std::string> bones =
-        findNonUniformScale(*character.skeleton, source.animations);
+    const std::vector<std::string> bones = findNonUniformScale(
+        *character.skeleton, source.animations, unusedJoints(character.binding));
     if (!bones.empty())
         warn(character.notes,
              character.file + ": " + inUsersWords(bones.front()) +
