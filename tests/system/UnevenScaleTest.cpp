@@ -4,6 +4,7 @@
 #include "ExpectContains.h"
 #include "GltfBuilder.h"
 #include "Notices.h"
+#include "WhyRefused.h"
 
 #include <osgSkinCharacter/LoadCharacter>
 
@@ -44,9 +45,10 @@ struct Below : GltfColumn {
     std::size_t object = 0;
 };
 
-std::string notesOf(GltfColumn column) {
+std::string notesOf(GltfColumn column, const std::string& options = {}) {
     const test::Notices notices;
-    const osgSkin::Character character = osgSkin::loadCharacter(column.save("uneven.gltf"));
+    const osgSkin::Character character =
+        osgSkin::loadCharacter(column.save("uneven.gltf"), test::loadOptions(options));
     std::string result;
     for (const std::string& note : character.notes) result += note;
     EXPECT_EQ(notices.lines(), character.notes.size()) << notices.text();
@@ -86,7 +88,7 @@ TEST(UnevenGltf, MayBeMirroredIfThatStays) {
     }
 }
 
-/// As sockets for weapons and controls of rigs often are.
+/// As sockets for weapons and controls of rigs often are. Rigid parts follow any scale.
 TEST(UnevenGltf, DoesNotMatterForBonesWithoutSkin) {
     for (const bool hasSkin : {false, true}) {
         GltfColumn column = uneven(false, 1.0);
@@ -96,6 +98,7 @@ TEST(UnevenGltf, DoesNotMatterForBonesWithoutSkin) {
         column.animate("turn", column.joints[2], "scale", {0.0, 1.0}, {1, 1, 1, 1, 2, 1});
         EXPECT_EQ(notesOf(column).find("scaled non-uniformly") != std::string::npos, hasSkin)
             << notesOf(column);
+        EXPECT_EQ(notesOf(column, "rigid=top"), hasSkin ? "" : notesOf(column));
     }
 }
 

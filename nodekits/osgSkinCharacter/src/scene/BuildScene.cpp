@@ -48,6 +48,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -282,19 +283,25 @@ std::string inUsersWords(const std::string& found) {
            "\" (apply its scale in the program that made the file)";
 }
 
-/// The joints whose rotation no vertex takes, such as sockets and controls.
-std::set<std::string> unusedJoints(const Binding& binding) {
+/// The joints whose rotation no skin takes, such as sockets, controls and those of rigid parts
+/// alone, which follow any matrix.
+std::set<std::string> unusedJoints(const Character& character) {
+    const Binding& binding = character.binding;
+    std::vector<bool> isUsed(binding.joints.size(), false);
+    for (const AttachedSkin::Skin& skin : character.skin.skins)
+        for (const std::uint32_t v : skin.part.sourceVertex)
+            for (auto i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
+                isUsed[binding.influences[i].joint] = true;
     std::set<std::string> result;
-    for (const BoundJoint& joint : binding.joints) result.insert(joint.name);
-    for (const Influence& influence : binding.influences)
-        result.erase(binding.joints[influence.joint].name);
+    for (std::size_t j = 0; j < isUsed.size(); ++j)
+        if (!isUsed[j]) result.insert(binding.joints[j].name);
     return result;
 }
 
 /// A rigged model's own animations, as the character's motions.
 void takeAnimations(const CharacterSource& source, Character& character) {
-    const std::vector<std::string> bones = findNonUniformScale(
-        *character.skeleton, source.animations, unusedJoints(character.binding));
+    const std::vector<std::string> bones =
+        findNonUniformScale(*character.skeleton, source.animations, unusedJoints(character));
     if (!bones.empty())
         warn(character.notes,
              character.file + ": " + inUsersWords(bones.front()) +
