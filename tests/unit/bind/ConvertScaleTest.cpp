@@ -172,6 +172,17 @@ TEST(ConvertScale, NotesNonUniformScale) {
                                "non-uniformly, mirrored or to zero, which skins do not follow");
 }
 
+TEST(ConvertScale, NotesNoScaleOfBonesWithoutSkin) {
+    Scene scene;
+    scene.skeleton->addChild(makeRig([](double height) -> std::array<float, 3> {
+        return {height < 3.0 ? 1.0f : 0.0f, height < 3.0 ? 0.0f : 1.0f, 0.0f};
+    }));
+    localOf(scene, 2) = osg::Matrixd::scale(1.0, 1.5, 1.0) * osg::Matrixd::translate(0, 2.4, 0);
+    const ConvertReport report = convertRigs(*scene.root);
+    EXPECT_EQ(report.skins.size(), 1u);
+    EXPECT_TRUE(report.notes.empty());
+}
+
 TEST(ConvertScale, NotesNonUniformScaleInClips) {
     for (const bool even : {true, false}) {
         Scene scene;

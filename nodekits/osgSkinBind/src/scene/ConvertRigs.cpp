@@ -402,7 +402,9 @@ void convertSkeleton(osgAnimation::Skeleton& skeleton, const std::vector<const R
 
 void noteNonUniformScale(osgAnimation::Skeleton& skeleton, const osgAnimation::AnimationList& clips,
                          ConvertReport& report) {
-    const std::vector<std::string> bones = findNonUniformScale(skeleton, clips);
+    const ConvertedBody& body = report.bodies.back();
+    const std::vector<std::string> bones =
+        findNonUniformScale(skeleton, clips, body.binding, body.skins);
     if (bones.empty()) return;
     std::string note = "skeleton \"" + skeleton.getName() + "\": " + bones.front();
     if (bones.size() > 1) note += " and " + std::to_string(bones.size() - 1) + " more";

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace osgSkin {
@@ -152,11 +154,27 @@ std::set<const osg::Node*> mirroredUnbound(const std::vector<BoneMatrices::Entry
     return result;
 }
 
+/// The joints whose rotation no skin takes, such as sockets and controls.
+std::set<std::string> unusedJoints(const Binding& binding,
+                                   const std::vector<SkinParts::Skin>& skins) {
+    std::vector<bool> isUsed(binding.joints.size(), false);
+    for (const SkinParts::Skin& skin : skins)
+        for (const std::uint32_t v : skin.part.sourceVertex)
+            for (auto i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
+                isUsed[binding.influences[i].joint] = true;
+    std::set<std::string> result;
+    for (std::size_t j = 0; j < isUsed.size(); ++j)
+        if (!isUsed[j]) result.insert(binding.joints[j].name);
+    return result;
+}
+
 } // namespace
 
 std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
                                              const osgAnimation::AnimationList& clips,
-                                             const std::set<std::string>& unused) {
+                                             const Binding& binding,
+                                             const std::vector<SkinParts::Skin>& skins) {
+    const std::set<std::string> unused = unusedJoints(binding, skins);
     BoneMatrices found;
     skeleton.accept(found);
     std::unordered_map<std::string, std::vector<const BoneMatrices::Entry*>> named;

@@ -48,10 +48,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -283,25 +281,10 @@ std::string inUsersWords(const std::string& found) {
            "\" (apply its scale in the program that made the file)";
 }
 
-/// The joints whose rotation no skin takes, such as sockets, controls and those of rigid parts
-/// alone, which follow any matrix.
-std::set<std::string> unusedJoints(const Character& character) {
-    const Binding& binding = character.binding;
-    std::vector<bool> isUsed(binding.joints.size(), false);
-    for (const AttachedSkin::Skin& skin : character.skin.skins)
-        for (const std::uint32_t v : skin.part.sourceVertex)
-            for (auto i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
-                isUsed[binding.influences[i].joint] = true;
-    std::set<std::string> result;
-    for (std::size_t j = 0; j < isUsed.size(); ++j)
-        if (!isUsed[j]) result.insert(binding.joints[j].name);
-    return result;
-}
-
 /// A rigged model's own animations, as the character's motions.
 void takeAnimations(const CharacterSource& source, Character& character) {
-    const std::vector<std::string> bones =
-        findNonUniformScale(*character.skeleton, source.animations, unusedJoints(character));
+    const std::vector<std::string> bones = findNonUniformScale(
+        *character.skeleton, source.animations, character.binding, character.skin.skins);
     if (!bones.empty())
         warn(character.notes,
              character.file + ": " + inUsersWords(bones.front()) +
