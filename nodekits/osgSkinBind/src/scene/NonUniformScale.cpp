@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 namespace osgSkin {
@@ -142,29 +141,16 @@ std::string sheared(const std::vector<BoneMatrices::Entry>& bones,
     return entry.bone->getName();
 }
 
-/// The bones without a bind matrix above one whose bind matrix is mirrored, as theirs would be.
-std::set<const osg::Node*> mirroredUnbound(const std::vector<BoneMatrices::Entry>& bones) {
-    std::set<const osg::Node*> result;
-    for (const BoneMatrices::Entry& entry : bones) {
-        if (entry.parent < 0 || !isMirrored(entry.bone->getInvBindMatrixInSkeletonSpace()))
-            continue;
-        const osgAnimation::Bone* const above = bones[std::size_t(entry.parent)].bone;
-        if (above->getInvBindMatrixInSkeletonSpace().isIdentity()) result.insert(above);
-    }
-    return result;
-}
-
-/// The joints whose rotation no skin takes, such as sockets and controls.
-std::set<std::string> unusedJoints(const Binding& binding,
-                                   const std::vector<SkinParts::Skin>& skins) {
+/// Whether a skin takes a joint's rotation, by name: not those of sockets and controls.
+std::map<std::string, bool> usedJoints(const Binding& binding,
+                                       const std::vector<SkinParts::Skin>& skins) {
     std::vector<bool> isUsed(binding.joints.size(), false);
     for (const SkinParts::Skin& skin : skins)
         for (const std::uint32_t v : skin.part.sourceVertex)
             for (auto i = binding.firstInfluence[v]; i < binding.firstInfluence[v + 1]; ++i)
                 isUsed[binding.influences[i].joint] = true;
-    std::set<std::string> result;
-    for (std::size_t j = 0; j < isUsed.size(); ++j)
-        if (!isUsed[j]) result.insert(binding.joints[j].name);
+    std::map<std::string, bool> result;
+    for (std::size_t j = 0; j < isUsed.size(); ++j) result[binding.joints[j].name] = isUsed[j];
     return result;
 }
 
@@ -174,18 +160,18 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
                                              const osgAnimation::AnimationList& clips,
                                              const Binding& binding,
                                              const std::vector<SkinParts::Skin>& skins) {
-    const std::set<std::string> unused = unusedJoints(binding, skins);
+    const std::map<std::string, bool> used = usedJoints(binding, skins);
     BoneMatrices found;
     skeleton.accept(found);
     std::unordered_map<std::string, std::vector<const BoneMatrices::Entry*>> named;
     for (const BoneMatrices::Entry& entry : found.bones)
-        if (unused.count(entry.bone->getName()) == 0)
-            named[entry.bone->getName()].push_back(&entry);
+        named[entry.bone->getName()].push_back(&entry);
     std::map<std::string, std::string> guilty; // bone -> its line
     for (const auto& clip : clips)
         for (const auto& channel : clip->getChannels()) {
             const auto bones = named.find(channel->getTargetName());
-            if (bones == named.end()) continue;
+            const auto isUsed = used.find(channel->getTargetName());
+            if (bones == named.end() || (isUsed != used.end() && !isUsed->second)) continue;
             for (const BoneMatrices::Entry* entry : bones->second) {
                 const std::string& name = entry->bone->getName();
                 const osg::Matrixd bind =
@@ -202,15 +188,15 @@ std::vector<std::string> findNonUniformScale(osgAnimation::Skeleton& skeleton,
             }
         }
     std::vector<std::string> result;
-    const std::set<const osg::Node*> mirrored = mirroredUnbound(found.bones);
     for (const BoneMatrices::Entry& entry : found.bones) {
         const std::string& name = entry.bone->getName();
         const auto line = guilty.find(name);
-        osg::Matrixd matrix = entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix;
-        if (mirrored.count(entry.bone) != 0) matrix.preMultScale(osg::Vec3d(-1, 1, 1));
+        const auto isUsed = used.find(name); // or else it is above the joints, and may mirror them
+        const osg::Matrixd matrix = entry.bone->getInvBindMatrixInSkeletonSpace() * entry.matrix;
         if (line != guilty.end())
             result.push_back(line->second);
-        else if (unused.count(name) == 0 && !isUniform(matrix))
+        else if (isUsed == used.end() ? !isSimilarity(matrix)
+                                      : isUsed->second && !isUniform(matrix))
             result.push_back("bone \"" + name + "\" in the scene");
     }
     return result;
