@@ -18,8 +18,9 @@ namespace {
 /// Samples of a Collada curve from (0, 0) to (1, 120) that moves a node's angle.
 /// \param kind of its interpolation
 /// \param out, in tangents: two numbers for each key
+/// \param numbers of each key, of which the first counts
 std::map<double, double> samplesOf(const std::string& kind, const std::string& out,
-                                   const std::string& in, double end = 1.0) {
+                                   const std::string& in, double end = 1.0, int numbers = 1) {
     const auto array = [](const char* id, const std::string& words, int count, int stride) {
         const std::string number = std::to_string(count), tag = id[0] == 'k' ? "Name" : "float";
         return std::string("<source id='") + id + "'><" + tag + "_array count='" + number + "'>" +
@@ -29,9 +30,12 @@ std::map<double, double> samplesOf(const std::string& kind, const std::string& o
     };
     std::ostringstream last;
     last << "0 " << end;
+    std::string more;
+    for (int k = 1; k < numbers; ++k) more += " 0";
     std::string bytes = "<library_animations><animation>" + array("t", last.str(), 2, 1) +
-                        array("v", "0 120", 2, 1) + array("k", kind + " " + kind, 2, 1) +
-                        array("o", out, 4, 2) + array("i", in, 4, 2) +
+                        array("v", "0" + more + " 120" + more, 2 * numbers, numbers) +
+                        array("k", kind + " " + kind, 2, 1) + array("o", out, 4, 2) +
+                        array("i", in, 4, 2) +
                         "<sampler id='s'><input semantic='INPUT' source='#t'/>"
                         "<input semantic='OUTPUT' source='#v'/><input "
                         "semantic='INTERPOLATION' source='#k'/><input semantic='IN_TANGENT' "
@@ -39,20 +43,21 @@ std::map<double, double> samplesOf(const std::string& kind, const std::string& o
                         "<channel source='#s' target='Tip/rotateZ.ANGLE'/></animation>"
                         "</library_animations>";
     osgSkin::applyEdits(osgSkin::sampleCurves("curve.dae", bytes, {}), bytes);
-    const auto numbers = [&bytes](const char* id) {
+    const auto read = [&bytes](const char* id) {
         const std::size_t begin =
             bytes.find('>', bytes.find("_array", bytes.find(std::string("'") + id + "'"))) + 1;
         std::istringstream words(bytes.substr(begin, bytes.find('<', begin) - begin));
         return std::vector<double>(std::istream_iterator<double>(words), {});
     };
-    const std::vector<double> times = numbers("t"), values = numbers("v");
-    EXPECT_EQ(times.size(), values.size());
+    const std::vector<double> times = read("t"), values = read("v");
+    EXPECT_EQ(times.size() * std::size_t(numbers), values.size());
     const std::string count = "count='" + std::to_string(times.size()) + "'";
     std::size_t counts = 0;
     for (auto at = bytes.find(count); at != bytes.npos; at = bytes.find(count, at + 1)) ++counts;
-    EXPECT_GE(counts, 4u) << bytes;
+    EXPECT_GE(counts, numbers == 1 ? 4u : 3u) << bytes;
     std::map<double, double> result;
-    for (std::size_t k = 0; k < times.size(); ++k) result[times[k]] = values[k];
+    for (std::size_t k = 0; k < times.size(); ++k)
+        result[times[k]] = values[k * std::size_t(numbers)];
     return result;
 }
 
@@ -73,10 +78,12 @@ TEST(ColladaCurves, AreSampledAsTheFileSays) {
             EXPECT_NEAR(angle, 120.0 * t * t * (3.0 - 2.0 * t), 1e-6) << time;
         }
     }
-    const auto steps = samplesOf("STEP", "0 0 0 0", "0 0 0 0");
-    EXPECT_EQ(steps.at(1.0), 120.0);
-    EXPECT_EQ(std::prev(steps.end(), 2)->second, 0.0);
-    EXPECT_GT(std::prev(steps.end(), 2)->first, 0.99);
+    for (const int numbers : {1, 16}) { // an angle, a matrix
+        const auto steps = samplesOf("STEP", "0 0 0 0", "0 0 0 0", 1.0, numbers);
+        EXPECT_EQ(steps.at(1.0), 120.0);
+        EXPECT_EQ(std::prev(steps.end(), 2)->second, 0.0);
+        EXPECT_GT(std::prev(steps.end(), 2)->first, 0.99);
+    }
     expectError([] { samplesOf("LINEAR", "0 0 0 0", "0 0 0 0", 1e9); }, "option maxSamples");
 }
 

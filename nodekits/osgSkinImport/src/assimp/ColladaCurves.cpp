@@ -18,7 +18,7 @@ namespace osgSkin {
 namespace {
 
 constexpr double kBeforeStep = 1e-3;  ///< seconds before a step: the last of the old value
-constexpr std::size_t kMaxStride = 4; ///< more is a matrix
+constexpr std::size_t kMaxStride = 4; ///< more is a matrix, which may have steps alone
 constexpr double kMinHandle = 1e-6;   ///< of a segment: a handle that points straight up
 
 struct Source {
@@ -63,8 +63,9 @@ public:
         for (const auto& [id, sampler] : _samplers) byTimes[sampler["INPUT"]].push_back(&sampler);
         for (const auto& [times, samplers] : byTimes) sample(times, samplers);
         if (_isLeft)
-            warn(_path, "curves that are neither BEZIER, HERMITE nor STEP, or without tangents for "
-                        "each key, are read as straight lines between their keys: export a key for "
+            warn(_path, "curves that are neither BEZIER, HERMITE nor STEP, curves of matrices, "
+                        "or curves without tangents for each key, are read as straight lines "
+                        "between their keys: export a key for "
                         "each frame");
         return std::move(_edits);
     }
@@ -153,22 +154,24 @@ private:
         }
         _isLeft = _isLeft || !isFree;
         if (!isFree) return;
-        const std::vector<double> at = samplesOf(times, curves.size(), hasSteps);
+        std::size_t numbers = 1; // of a sample
+        for (const auto& [output, axes] : curves) numbers += axes.size();
+        const std::vector<double> at = samplesOf(times, numbers, hasSteps);
         replace(input, at, {});
         for (const auto& [output, axes] : curves) replace(output, at, axes);
     }
 
-    std::vector<double> samplesOf(const std::vector<double>& times, std::size_t curves,
+    std::vector<double> samplesOf(const std::vector<double>& times, std::size_t numbers,
                                   bool hasSteps) {
         std::vector<double> result{times.front()};
         for (std::size_t k = 1; k < times.size(); ++k) {
             const double begin = times[k - 1], duration = times[k] - begin;
             const double pieces = std::ceil(duration / kSampleStep - 1e-6);
-            if (!((pieces + 1.0) * double(curves + 1) * kMaxStride < double(_samples)))
+            if (!((pieces + 1.0) * double(numbers) < double(_samples)))
                 failFile(_path, "a clip lasts " + std::to_string(duration) +
                                     " s between two keys, expected fewer samples (option "
                                     "maxSamples)");
-            _samples -= std::size_t(pieces + 1.0) * (curves + 1) * kMaxStride;
+            _samples -= std::size_t(pieces + 1.0) * numbers;
             for (double piece = 1.0; piece < pieces; piece += 1.0)
                 result.push_back(begin + piece / pieces * duration);
             if (hasSteps && duration > 4.0 * kBeforeStep) result.push_back(times[k] - kBeforeStep);
@@ -185,7 +188,10 @@ private:
                                   out = numbers(sampler["OUT_TANGENT"]);
         const auto source = _sources.find(output);
         const std::size_t n = source == _sources.end() ? 0 : source->second.stride;
-        if (n == 0 || n > kMaxStride || values.size() != n * times.size()) return {};
+        const bool isSteps = kinds.size() == times.size() &&
+                             std::all_of(kinds.begin(), kinds.end(),
+                                         [](std::string_view kind) { return kind == "STEP"; });
+        if (n == 0 || (n > kMaxStride && !isSteps) || values.size() != n * times.size()) return {};
         // Tangents have pairs of time and value, or values alone, a third of the time away.
         const std::size_t pair = out.size() == 2 * values.size() ? 2 : 1;
         std::vector<FbxCurve> result;
