@@ -94,6 +94,17 @@ TEST_F(StandingPose, KeepsHeadingsOfTheFile) {
         EXPECT_LT(glm::distance(way(clip.rootPositions), way(turned.rootPositions)),
                   0.05 * rig.joints[0].centre.y);
     }
+    // The same where z is up and -y is the front.
+    Motion zUp = turned;
+    const glm::dquat lay = turnDegrees(90, {1, 0, 0});
+    for (std::size_t f = 0; f < zUp.frames; ++f) {
+        zUp.rotations[f * joints] = lay * zUp.rotations[f * joints];
+        zUp.rootPositions[f] = lay * zUp.rootPositions[f];
+    }
+    RetargetOptions options;
+    options.up = RetargetOptions::Up::Z;
+    const Clip clip = retarget(throughBvh(rebasedFrom(zUp, folded(joints))), rig, options);
+    EXPECT_LT(compare(clip, rig, turned).heading, 1.0);
 }
 
 TEST_F(StandingPose, PrefersCalibrationPose) {
@@ -465,12 +476,15 @@ TEST_F(StandingPose, KeepsHeightsOfOwnMotion) {
     const double height =
         rig.joints[0].centre.y - rig.joints[std::size_t(rig.find("LeftFoot"))].centre.y;
     for (glm::dvec3& position : own.rootPositions) position.y -= 0.1 * height;
-    const Clip sunk = retarget(own, rig);
+    RetargetReport report;
+    const Clip sunk = retarget(own, rig, {}, &report);
+    EXPECT_FALSE(saysOf(report, "another floor"));
     for (std::size_t f = 0; f < sunk.frames; ++f)
         ASSERT_LT(glm::distance(sunk.rootPositions[f], own.rootPositions[f]), 1e-6 * height) << f;
 
     for (glm::dvec3& position : own.rootPositions) position.y -= 0.5 * height; // another floor
-    EXPECT_NEAR(retarget(own, rig).rootPositions[0].y, onFloor[0].y, 1e-6 * height);
+    EXPECT_NEAR(retarget(own, rig, {}, &report).rootPositions[0].y, onFloor[0].y, 1e-6 * height);
+    EXPECT_TRUE(saysOf(report, "another floor than the body's: it is raised by ")) << report.text();
 
     own.yIsUp = true; // lies in the air, as in a flip
     const glm::dquat back = glm::angleAxis(glm::radians(-90.0), glm::dvec3(1, 0, 0));

@@ -138,6 +138,11 @@ void reportAligned(PoseTransfer& transfer, const Motion& motion, const RestSkele
     if (transfer.root().movedToOrigin())
         report.notes.emplace_back("the motion begins far from the origin: it starts at the "
                                   "origin here");
+    if (const double raised = transfer.root().raised(); raised != 0.0)
+        report.notes.emplace_back("the motion's feet are on another floor than the body's: it is " +
+                                  std::string(raised > 0.0 ? "raised" : "lowered") + " by " +
+                                  std::to_string(std::lround(100.0 * std::abs(raised))) +
+                                  " % of the hips' height");
     report.scale = transfer.root().scale();
     report.rotation = transfer.back() * transfer.frames().motionUpright;
     report.offset = transfer.back() * transfer.root().offset();

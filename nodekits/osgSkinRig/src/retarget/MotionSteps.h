@@ -163,6 +163,9 @@ public:
     /// Whether finish() moved the motion to the origin.
     bool movedToOrigin() const { return _movedToOrigin; }
 
+    /// How far finish() raised the body's own motion, whose floor is not the body's; hip heights.
+    double raised() const { return _raised; }
+
 private:
     void startAtOrigin();
     double lowestFoot(const std::vector<glm::dquat>& rigWorld) const;
@@ -178,6 +181,7 @@ private:
     glm::dvec3 _hips{0.0};  ///< in the last pose
     glm::dvec3 _start{0.0}; ///< of the hips in the first sample, relative to rest
     bool _movedToOrigin = false;
+    double _raised = 0.0;
     std::vector<glm::dvec3> _roots;
     std::vector<double> _feet; ///< height of the lowest foot above its rest height, [sample]
     std::vector<glm::dvec3> _motionPositions, _rigPositions;

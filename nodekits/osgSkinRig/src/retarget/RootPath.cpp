@@ -126,6 +126,7 @@ std::vector<glm::dvec3> RootPath::finish() {
     const bool restsOnSameFloor = std::abs(_offset.y) < 0.01 * _rigHeight;
     if (_isSameBody && restsOnSameFloor && (std::abs(rise) < kSameFloor * _rigHeight || !_stands))
         return std::move(_roots);
+    if (_isSameBody && restsOnSameFloor) _raised = -rise / _rigHeight;
     _offset.y -= rise;
     for (glm::dvec3& root : _roots) root.y -= rise;
     return std::move(_roots);
