@@ -93,6 +93,21 @@ TEST(RootJoint, WarnsAboutScales) {
     }
 }
 
+/// The same clip plays sheared on its own body, and not on one that it is retargeted to.
+TEST(RootJoint, WarnsAboutRotationWithinUnevenScale) {
+    for (const double length : {1.0, 2.0}) {
+        GltfColumn column;
+        column.bend();
+        const std::size_t above = column.node(
+            {{"name", "Armature"}, {"scale", {1, length, 1}}, {"children", {column.joints[0]}}});
+        column.json["scenes"][0]["nodes"] = {above, column.meshNode};
+        const test::Notices notices;
+        osgSkin::importMotion(column.save("uneven.gltf"));
+        EXPECT_EQ(notices.say(" is scaled unevenly; motions have no scales"), length > 1.0)
+            << notices.text();
+    }
+}
+
 /// Game engines' skeletons have a root on the ground, and targets beside the hips.
 TEST(RootJoint, HipsCarryTheFigure) {
     const std::string moves =

@@ -13,12 +13,12 @@
 #include <osgSkinImport/ImportRig>
 #include <osgSkinImport/ShareScenes>
 
+#include <osg/BoundingBox>
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
-#include <limits>
 #include <locale>
 #include <new>
 #include <sstream>
@@ -126,20 +126,14 @@ void checkSize(Character& character, bool unitIsStated) {
     const double room = unitIsStated ? kStatedRoom : 1.0;
     const double least = isFigure ? kMinHeight / room : 0.0;
     const double most = (isFigure ? kMaxHeight : 2.0 * kMaxHeight) * room;
-    const auto height = [&](const auto& all, const auto& positionOf) {
-        double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (const auto& each : all) {
-            const double z = (toOsg(positionOf(each)) * character.toWorld).z();
-            low = std::min(low, z);
-            high = std::max(high, z);
-        }
-        return high - low;
-    };
-    const double tall = height(character.body.mesh.positions, [](const auto& at) { return at; });
+    osg::BoundingBoxd body, joints;
+    for (const glm::dvec3& position : character.body.mesh.positions)
+        body.expandBy(toOsg(position) * character.toWorld);
+    for (const RestJoint& joint : character.rest.joints)
+        joints.expandBy(toOsg(joint.centre) * character.toWorld);
+    const double tall = body.zMax() - body.zMin();
     // Gloves alone are small, but not their wearer.
-    const double wearer =
-        height(character.rest.joints, [](const RestJoint& joint) { return joint.centre; });
-    if (std::max(tall, wearer) >= least && tall <= most) return;
+    if (std::max(tall, joints.zMax() - joints.zMin()) >= least && tall <= most) return;
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note << character.file << ": the body is " << std::setprecision(3) << tall << " m tall"

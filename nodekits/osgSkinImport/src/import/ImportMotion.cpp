@@ -188,21 +188,40 @@ std::vector<bool> findMovedJoints(const std::vector<const SourceTrack*>& tracks,
     return result;
 }
 
-/// Reports the first joint whose track scales it: motions have no scale.
+/// Whether a rotation within a scale that is uneven by more than 5 % shears.
+bool shears(const glm::dmat3& above, const glm::dquat& rotation) {
+    const glm::dmat3 moved = above * glm::mat3_cast(rotation) * glm::inverse(above);
+    const glm::dmat3 even = glm::transpose(moved) * moved, one(1.0);
+    return glm::length(even[0] - one[0]) + glm::length(even[1] - one[1]) +
+               glm::length(even[2] - one[2]) >
+           0.2;
+}
+
+/// Reports the first joint whose track scales it, or rotates it within an uneven scale: motions
+/// have no scale.
 void warnScales(const std::vector<const SourceTrack*>& tracks, const SceneSkeleton& skeleton,
                 const std::string& path) {
     constexpr double kSame = 0.01;
     for (std::size_t j = 0; j < tracks.size(); ++j) {
         if (tracks[j] == nullptr) continue;
-        const glm::dvec3 rest = decompose(skeleton.nodes[j]->matrix).scale;
-        const auto& keys = tracks[j]->scales;
+        const NodeTransform rest = decompose(skeleton.nodes[j]->matrix);
+        const int up = skeleton.rest.joints[j].parent;
+        const glm::dmat3 above(up < 0 ? skeleton.aboveRoot
+                                      : skeleton.bind[static_cast<std::size_t>(up)]);
         const auto isOther = [&](const auto& key) {
-            const glm::dvec3 off = glm::abs(glm::dvec3(key.value)) - glm::abs(rest);
-            return glm::length(off) > kSame * glm::length(rest);
+            const glm::dvec3 off = glm::abs(glm::dvec3(key.value)) - glm::abs(rest.scale);
+            return glm::length(off) > kSame * glm::length(rest.scale);
         };
-        if (!std::any_of(keys.begin(), keys.end(), isOther)) continue;
-        warn(path, "joint " + inQuotes(skeleton.rest.joints[j].name) +
-                       " is scaled; motions have no scales");
+        const auto isSheared = [&](const auto& key) {
+            return shears(above, glm::dquat(key.value) * glm::conjugate(rest.rotation));
+        };
+        const auto& scales = tracks[j]->scales;
+        const auto& turns = tracks[j]->rotations;
+        const bool isScaled = std::any_of(scales.begin(), scales.end(), isOther);
+        if (!isScaled && std::none_of(turns.begin(), turns.end(), isSheared)) continue;
+        warn(path, (isScaled ? "joint " : "an object or joint above ") +
+                       inQuotes(skeleton.rest.joints[j].name) + " is scaled" +
+                       (isScaled ? "" : " unevenly") + "; motions have no scales");
         return;
     }
 }

@@ -447,16 +447,12 @@ void countFromRig(const RestSkeleton& rig, const RestSkeleton& motion,
     if (same.restsAlike && isIdentity(turn)) return; // the zero pose is the rig's rest pose
     std::vector<glm::dquat> world = same.toRigRest;
     for (glm::dquat& q : world) q = glm::normalize(turn * q);
-    // The rig's joint that the motion's root drives, or else the first that is driven.
-    const auto isRoot = [](int driver) { return driver == 0; };
-    const auto isDriven = [](int driver) { return driver >= 0; };
-    auto driven = std::find_if(motionJoint.begin(), motionJoint.end(), isRoot);
-    if (driven == motionJoint.end())
-        driven = std::find_if(motionJoint.begin(), motionJoint.end(), isDriven);
+    std::size_t first = 0; // that is driven
+    while (motionJoint[first] < 0) ++first;
     std::vector<glm::dvec3> fromRoot;
     worldPositions(motion, world, glm::dvec3(0.0), fromRoot);
-    const auto joint = static_cast<std::size_t>(driven - motionJoint.begin());
-    const glm::dvec3 place = turn * rig.joints[joint].centre / same.scale - fromRoot[at(*driven)];
+    const glm::dvec3 place =
+        turn * rig.joints[first].centre / same.scale - fromRoot[at(motionJoint[first])];
     result.counted = ZeroPose{std::move(world), place};
     result.notes.emplace_back("the rig has the motion's joints: local rotations are copied");
 }
