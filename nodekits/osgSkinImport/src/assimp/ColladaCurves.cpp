@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <locale>
-#include <map>
-#include <optional>
 #include <set>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 namespace osgSkin {

@@ -6,9 +6,6 @@
 
 #include <osgSkinImport/ReadLimits>
 
-#include <string>
-#include <string_view>
-
 namespace osgSkin {
 
 /// Samples a Collada file's curves 30 times a second where its keys are far apart and Assimp's
