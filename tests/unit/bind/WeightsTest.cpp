@@ -4,10 +4,13 @@
 #include "Shapes.h"
 #include "SharedBody.h"
 
+#include <osgSkin/Deform>
 #include <osgSkin/Error>
 #include <osgSkin/SkinModel>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindWeights>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <gtest/gtest.h>
 
@@ -83,6 +86,46 @@ TEST(BindWeights, SharedByBranchesAreNotFollowedTwice) {
             EXPECT_NEAR(ratiosOf(third, 0, j).bend, isWhole ? 2.0 / 3.0 : 1.0, 1e-6);
             EXPECT_NEAR(ratiosOf(third, 0, twin).bend, isWhole ? 1.0 / 3.0 : 0.0, 1e-6);
         }
+    }
+}
+
+/// As the middle of a skirt while the figure sits down.
+TEST(BindWeights, SkinBetweenTwoLegsThatBendAlikeFollowsThemAsOne) {
+    const SkinMesh mesh = shapes::cylinder();
+    RestSkeleton skeleton;
+    skeleton.add("hips", -1, glm::dvec3(0.0, 8.0, 0.0));
+    for (const int leg : {0, 3})
+        for (int j = 0; j < 3; ++j)
+            skeleton.add("leg" + std::to_string(leg + j), j == 0 ? 0 : leg + j,
+                         glm::dvec3(leg == 0 ? 0.5 : -0.5, 7.0 - 2.5 * j, 0.0));
+    std::vector<glm::dmat4> posed(7, glm::dmat4(1.0));
+    for (const std::size_t leg : {1u, 4u})
+        for (std::size_t j = 0; j < 3; ++j) {
+            const glm::dvec3 centre = skeleton.joints[leg + j].centre;
+            const glm::dmat4 turn =
+                glm::rotate(glm::dmat4(1.0), j == 0 ? -1.5 : 0.8, glm::dvec3(1.0, 0.0, 0.0));
+            posed[leg + j] = posed[j == 0 ? 0 : leg + j - 1] *
+                             glm::translate(glm::dmat4(1.0), centre) * turn *
+                             glm::translate(glm::dmat4(1.0), -centre);
+        }
+    const auto skirt = [&](double left) {
+        VertexWeights weights;
+        for (const glm::dvec3& p : mesh.positions) {
+            std::vector<JointWeight> list = {{0, p.y > 7.0 ? 1.0 : 0.0}};
+            const double below = std::clamp(7.0 - p.y, 0.0, 7.0) / 2.5;
+            for (std::uint32_t j = 0; j < 3; ++j) {
+                const double own = std::max(0.0, 1.0 - std::abs(below - j - 0.5));
+                list.push_back({1 + j, left * own});
+                list.push_back({4 + j, (1.0 - left) * own});
+            }
+            weights.push_back(list);
+        }
+        return deform(bindWeights(mesh, skeleton, weights, {}), mesh.positions, posed);
+    };
+    const auto one = skirt(1.0), half = skirt(0.5), third = skirt(1.0 / 3.0);
+    for (std::size_t v = 0; v < one.size(); ++v) {
+        EXPECT_LT(glm::distance(half[v], one[v]), 1e-4) << v;
+        EXPECT_LT(glm::distance(third[v], one[v]), 1e-4) << v;
     }
 }
 

@@ -63,6 +63,19 @@ TEST(ProductOrder, IsIndependentOfTheFileOrder) {
               expected);
 }
 
+/// Skin between both legs would follow one shin before the other thigh otherwise.
+TEST(ProductOrder, BranchesSideBySideGoDownTogether) {
+    std::vector<BoundJoint> joints =
+        makeJoints("Hips Spine<Hips Head<Spine LLeg<Hips LFoot<LLeg LToe<LFoot RLeg<Hips "
+                   "RTwist<RLeg RFoot<RTwist");
+    const glm::dvec3 centres[] = {{0, 4, 0},   {0, 5, 0},    {0, 6, 0},    {0.4, 4, 0}, {0.4, 2, 0},
+                                  {0.4, 0, 1}, {-0.4, 4, 0}, {-0.4, 3, 0}, {-0.4, 2, 0}};
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j].centre = centres[j];
+    std::string order;
+    for (const std::uint32_t j : productOrder(joints)) order += joints[j].name + " ";
+    EXPECT_EQ(order, "Hips Spine Head LLeg RLeg LFoot RTwist LToe RFoot ");
+}
+
 TEST(ProductOrder, HandlesLongChainsAndNoJoints) {
     EXPECT_TRUE(productOrder({}).empty());
     std::vector<BoundJoint> chain(200000);

@@ -123,7 +123,7 @@ osg::ref_ptr<const SkinModel> forkedModel(const char* rightName) {
     binding.joints = {{"root", -1, {0, 0, 0}, down, down},
                       {"left", 0, {1, -1, 0}, down, down},
                       {"knee", 1, {1, -3, 0}, down, down},
-                      {rightName, 0, {-1, -1, 0}, down, down}};
+                      {rightName, 0, {-0.5, -1, 0}, down, down}}; // beside the left one
     binding.firstInfluence.push_back(0);
     std::mt19937_64 random(9);
     std::uniform_real_distribution<float> x(-2.0f, 2.0f), y(-4.0f, 1.0f);

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 using osgSkin::SkinModel;
@@ -104,4 +106,31 @@ TEST(SkinModelBlock, CorrectivesRoundTrip) {
             EXPECT_EQ(after.joints[j].normalScales, before.joints[j].normalScales);
         }
     }
+}
+
+/// Older models have each leg as a whole in their product.
+TEST(SkinModelBlock, ModelsOfTheFormerOrderKeepIt) {
+    const glm::dvec3 down(0.0, -1.0, 0.0);
+    const double above = 7.25, beside = -0.5;
+    osgSkin::Binding legs;
+    legs.joints = {{"hips", -1, {0.0, 0.0, 0.0}, down, down},
+                   {"left", 0, {0.5, -0.5, 0.0}, down, down},
+                   {"leftKnee", 1, {0.5, -2.0, 0.0}, down, down},
+                   {"right", 0, {0.0, above, 0.0}, down, down}};
+    legs.influences = {{0, 1.0f, 1.0f}, {1, 0.5f, 0.5f}, {2, 0.5f, 0.5f}, {3, 0.5f, 0.5f}};
+    legs.regions = {0};
+    legs.firstInfluence = {0, 4};
+    const auto apart = SkinModel::create(legs, {{0.0f, -2.0f, 0.0f}}, {{0.0f, 0.0f, 1.0f}}, {0});
+    std::vector<std::uint32_t> words = osgSkin::packSkinModel(*apart);
+    std::uint32_t from[2], to[2];
+    std::memcpy(from, &above, sizeof above);
+    std::memcpy(to, &beside, sizeof beside);
+    const auto place = std::search(words.begin(), words.end(), from, from + 2);
+    ASSERT_NE(place, words.end());
+    std::copy(to, to + 2, place);
+    const auto again = osgSkin::unpackSkinModel(words);
+    EXPECT_EQ(osgSkin::productOrder(again->joints()), (std::vector<std::uint32_t>{0, 1, 3, 2}));
+    ASSERT_EQ(again->links().size(), 4u);
+    for (std::uint32_t j = 0; j < 4; ++j) EXPECT_EQ(again->links()[j].joint, j);
+    EXPECT_EQ(osgSkin::packSkinModel(*again), words);
 }

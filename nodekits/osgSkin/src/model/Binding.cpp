@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgSkin/Binding>
 
+#include "model/SkinBlocks.h"
+
 #include <osgSkin/Error>
 #include <osgSkin/GlmTypes>
 
@@ -8,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 namespace osgSkin {
 namespace {
@@ -67,6 +71,60 @@ void sortSiblings(const std::vector<BoundJoint>& joints, const std::vector<std::
     std::stable_sort(siblings.begin(), siblings.end(), before);
 }
 
+/// The direction from the joint above to the middle of each joint's subtree; zero where both are
+/// at one place.
+std::vector<glm::dvec3> branchDirections(const std::vector<BoundJoint>& joints,
+                                         const std::vector<std::size_t>& sizes) {
+    std::vector<glm::dvec3> result(joints.size(), glm::dvec3(0.0));
+    for (std::size_t j = joints.size(); j-- > 1;) {
+        result[j] += joints[j].centre;
+        const auto parent = static_cast<std::size_t>(joints[j].parent);
+        result[parent] += result[j];
+        result[j] = result[j] / double(sizes[j]) - joints[parent].centre;
+        const double length = glm::length(result[j]);
+        if (length > 0.0) result[j] /= length;
+    }
+    return result;
+}
+
+/// Adds a joint to the first of a few groups whose first joint's branch has nearly its direction,
+/// or as a group of its own.
+void addAlongside(std::uint32_t joint, const std::vector<glm::dvec3>& directions,
+                  std::vector<Indices>& groups) {
+    constexpr double kAlongside = 0.5; // 60 degrees
+    constexpr std::size_t kTried = 16; // no more branches are so far apart
+    for (std::size_t i = 0; i < std::min(groups.size(), kTried); ++i) {
+        if (glm::dot(directions[groups[i].front()], directions[joint]) < kAlongside) continue;
+        groups[i].push_back(joint);
+        return;
+    }
+    groups.push_back({joint});
+}
+
+Indices orderBranches(const std::vector<BoundJoint>& joints, const std::vector<std::size_t>& sizes,
+                      const std::vector<glm::dvec3>& directions) {
+    std::vector<Indices> children(joints.size());
+    for (std::size_t j = 1; j < joints.size(); ++j)
+        children[static_cast<std::size_t>(joints[j].parent)].push_back(
+            static_cast<std::uint32_t>(j));
+    Indices order;
+    std::vector<Indices> open; // of joints of branches side by side
+    if (!joints.empty()) open.push_back({0});
+    while (!open.empty()) { // without recursion: chains may be long
+        const Indices group = std::move(open.back());
+        open.pop_back();
+        order.insert(order.end(), group.begin(), group.end());
+        std::vector<Indices> below;
+        for (const std::uint32_t j : group) {
+            sortSiblings(joints, sizes, children[j]);
+            for (const std::uint32_t child : children[j]) addAlongside(child, directions, below);
+        }
+        open.insert(open.end(), std::make_move_iterator(below.rbegin()),
+                    std::make_move_iterator(below.rend()));
+    }
+    return order;
+}
+
 } // namespace
 
 void Binding::validate() const {
@@ -98,21 +156,13 @@ void Binding::validate() const {
 }
 
 std::vector<std::uint32_t> productOrder(const std::vector<BoundJoint>& joints) {
-    std::vector<Indices> children(joints.size());
-    for (std::size_t j = 1; j < joints.size(); ++j)
-        children[static_cast<std::size_t>(joints[j].parent)].push_back(
-            static_cast<std::uint32_t>(j));
     const std::vector<std::size_t> sizes = subtreeSizes(joints);
-    Indices order, open;
-    if (!joints.empty()) open.push_back(0);
-    while (!open.empty()) { // without recursion: chains may be long
-        const std::uint32_t j = open.back();
-        open.pop_back();
-        order.push_back(j);
-        sortSiblings(joints, sizes, children[j]);
-        open.insert(open.end(), children[j].rbegin(), children[j].rend());
-    }
-    return order;
+    return orderBranches(joints, sizes, branchDirections(joints, sizes));
+}
+
+std::vector<std::uint32_t> subtreeOrder(const std::vector<BoundJoint>& joints) {
+    const std::vector<glm::dvec3> apart(joints.size(), glm::dvec3(0.0));
+    return orderBranches(joints, subtreeSizes(joints), apart);
 }
 
 std::vector<std::uint32_t> productPlaces(const std::vector<std::uint32_t>& order) {

@@ -31,7 +31,7 @@ constexpr std::uint32_t kNone = ~0u;
 /// A box before it is stored. Joints are the model's.
 struct Draft {
     glm::dvec3 low{std::numeric_limits<double>::max()}, high{-low};
-    std::map<std::uint32_t, JointBoxes::Term> terms; ///< by place in productOrder()
+    std::map<std::uint32_t, JointBoxes::Term> terms; ///< by linkPlaces()
     std::map<std::uint32_t, double> reaches;         ///< shares, by joint of the correctives
 };
 
@@ -39,7 +39,7 @@ class BoxBuilder {
 public:
     BoxBuilder(const SkinModel& model, JointBoxes& boxes)
         : _model(model), _correctives(SkinModelAccess::correctives(model)), _boxes(boxes),
-          _places(productPlaces(productOrder(model.joints()))) {
+          _places(linkPlaces(model.joints(), model.groups(), model.links())) {
         double largest = 0.0;
         for (const glm::vec3& p : model.positions()) {
             for (int axis = 0; axis < 3; ++axis)
@@ -202,7 +202,7 @@ private:
     const SkinModel& _model;
     const CorrectiveBlocks* _correctives; ///< null without correctives
     JointBoxes& _boxes;
-    std::vector<std::uint32_t> _places;                  ///< in productOrder()
+    std::vector<std::uint32_t> _places;                  ///< linkPlaces()
     double _extent = std::numeric_limits<double>::min(); ///< about the skin's size
     std::map<Key, Draft> _drafts;
     std::vector<JointBoxes::Term> _terms;

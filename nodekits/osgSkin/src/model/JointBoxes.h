@@ -16,7 +16,7 @@ namespace osgSkin {
 /// with A, by the skinning matrix G_A, and is enlarged by the largest distance of a vertex from G_A
 /// x. That is bounded as follows.
 ///
-/// A vertex x becomes P_1 ... P_n x, where P_k is the transform of the k-th joint in productOrder()
+/// A vertex x becomes P_1 ... P_n x, where P_k is the transform of the k-th joint of the product
 /// by the vertex's ratios. G_A is the same product with S_k, the full transform where s = 1 and the
 /// identity where s = 0. Replacing one factor after the other,
 ///
@@ -47,7 +47,7 @@ struct JointBoxes {
     };
     struct Box {
         glm::dvec3 centre, half;            ///< of its vertices at rest, in the joint's frame
-        std::uint32_t firstTerm, termCount; ///< in productOrder()
+        std::uint32_t firstTerm, termCount; ///< in the order of the product
         std::uint32_t firstReach, reachCount;
     };
     /// A joint for which ratios of a box's vertices differ from s.

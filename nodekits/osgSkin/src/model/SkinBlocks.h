@@ -201,6 +201,15 @@ glm::dmat3 restFrame(const SkinModel& model, const SkinModel::Group& group);
 /// \param joint of the binding
 const Influence* influenceOf(const Binding& binding, std::uint32_t vertex, std::uint32_t joint);
 
+/// productOrder() as models had it that older versions have saved: each subtree as a whole.
+std::vector<std::uint32_t> subtreeOrder(const std::vector<BoundJoint>& joints);
+
+/// Each joint's position in the order in which a model's groups list theirs: productOrder(), or
+/// else subtreeOrder().
+std::vector<std::uint32_t> linkPlaces(const std::vector<BoundJoint>& joints,
+                                      const std::vector<SkinModel::Group>& groups,
+                                      const std::vector<SkinModel::Link>& links);
+
 /// The internal data of a model and its tangents.
 struct SkinModelAccess {
     /// A model as files have it. Of a group, `vertexCount` and `linkCount` count.

@@ -370,10 +370,24 @@ void checkLinks(const SkinModel::Link* links, std::size_t count,
 
 } // namespace
 
+std::vector<std::uint32_t> linkPlaces(const std::vector<BoundJoint>& joints,
+                                      const std::vector<SkinModel::Group>& groups,
+                                      const std::vector<SkinModel::Link>& links) {
+    std::vector<std::uint32_t> places = productPlaces(productOrder(joints));
+    std::size_t i = 0;
+    for (const SkinModel::Group& group : groups)
+        for (const std::size_t first = i; i < links.size() && i < first + group.linkCount; ++i) {
+            if (links[i].joint >= places.size()) return places;
+            if (i > first && places[links[i].joint] < places[links[i - 1].joint])
+                return productPlaces(subtreeOrder(joints));
+        }
+    return places;
+}
+
 osg::ref_ptr<SkinModel> SkinModelAccess::make(Arranged&& from) {
     checkVertices(from.positions, from.normals, from.positions.size());
     checkOrder(from.order, from.positions.size());
-    const std::vector<std::uint32_t> places = productPlaces(productOrder(from.joints));
+    const std::vector<std::uint32_t> places = linkPlaces(from.joints, from.groups, from.links);
     std::size_t vertices = 0, links = 0, ratios = 0, followed = 0;
     for (SkinModel::Group& group : from.groups) {
         if (group.vertexCount == 0 || group.vertexCount > from.positions.size() - vertices ||
