@@ -212,39 +212,6 @@ TEST_F(StandingPose, SameJointsInAnotherPoseMoveAlike) {
         ASSERT_LT(glm::distance(clip.rootPositions[f], expected.rootPositions[f]), 1e-6);
 }
 
-/// One more joint, on the floor, with a name that would have another role.
-TEST_F(StandingPose, NamesakesArePairedBeforeRoles) {
-    RestSkeleton pelvic = rig;
-    Motion without = actor;
-    without.skeleton = rig;
-    for (glm::dvec3& position : without.rootPositions) position.y -= 0.02 * rig.joints[0].centre.y;
-    Motion motion = rebasedFrom(without, folded(joints), true);
-    for (RestSkeleton* each : {&pelvic, &without.skeleton, &motion.skeleton})
-        each->joints[0].name = "Pelvis";
-    RestJoint hips = motion.skeleton.joints[0];
-    hips.name = "Hips";
-    hips.frame = kIdentity;
-    const glm::dvec3 height(0.0, hips.centre.y, 0.0);
-    hips.centre -= height;
-    for (glm::dvec3& position : motion.rootPositions) position -= height;
-    for (RestJoint& joint : motion.skeleton.joints) ++joint.parent;
-    motion.skeleton.joints.insert(motion.skeleton.joints.begin(), hips);
-    for (std::size_t f = 0; f < motion.frames; ++f)
-        motion.rotations.insert(motion.rotations.begin() + std::ptrdiff_t(f * (joints + 1)),
-                                kIdentity);
-    const Clip expected = retarget(without, pelvic);
-    for (const char* prefix : {"", "Rig:"}) {
-        for (RestJoint& joint : motion.skeleton.joints) joint.name = prefix + joint.name;
-        RetargetReport report;
-        const Clip clip = retarget(motion, pelvic, {}, &report);
-        EXPECT_TRUE(saysOf(report, "local rotations are copied")) << report.text().substr(0, 300);
-        for (std::size_t i = 0; i < clip.rotations.size(); ++i)
-            ASSERT_LT(angleBetween(clip.rotations[i], expected.rotations[i]), 1e-4);
-        for (std::size_t f = 0; f < clip.frames; ++f)
-            ASSERT_LT(glm::distance(clip.rootPositions[f], expected.rootPositions[f]), 1e-6) << f;
-    }
-}
-
 /// A rig that binds no joints above the hips does not stand by itself.
 TEST_F(StandingPose, SameJointsNeedNobodyWhoStands) {
     Motion sitting = actor;

@@ -96,9 +96,10 @@ private:
     std::size_t _standing = 0, _lying = 0;
 };
 
-/// Relates a motion's skeleton to a rig that has the same joints: the same tree, names except for a
-/// prefix and, in the joints' own frames (RestJoint::frame), bones of the same directions. The
-/// poses at rest may differ, and then the lengths.
+/// Relates a motion's skeleton to a rig that has the same joints: the same tree, but for further
+/// joints of either between them, names except for a prefix and, in the joints' own frames
+/// (RestJoint::frame), bones of the same directions. The poses at rest may differ, and then the
+/// lengths.
 struct SameSkeleton {
     double scale;    ///< from the motion's unit to the rig's
     bool restsAlike; ///< the motion's zero pose is the rig's rest pose

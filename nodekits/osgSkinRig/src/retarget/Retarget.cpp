@@ -12,8 +12,10 @@
 #include <osgSkinRig/ForwardKinematics>
 #include <osgSkinRig/RetargetReport>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,10 +69,30 @@ Clip aligned(const Motion& motion, const RestSkeleton& rig, const JointPairs& ma
     return clip;
 }
 
+/// The joints of a rig that is the motion's skeleton which the motion moves, by translations or by
+/// turning a joint between theirs and their parent's.
+std::vector<bool> movedJoints(const Motion& motion, const RestSkeleton& rig,
+                              const std::vector<int>& motionJoint) {
+    std::vector<bool> result(rig.joints.size(), false);
+    for (std::size_t j = 1; j < result.size(); ++j) {
+        const int driver = motionJoint[j];
+        if (driver < 0) continue;
+        const auto m = static_cast<std::size_t>(driver);
+        const int above = motionJoint[static_cast<std::size_t>(rig.joints[j].parent)];
+        result[j] =
+            motion.moves.count(m) != 0 || (above >= 0 && motion.skeleton.joints[m].parent != above);
+    }
+    return result;
+}
+
+/// A joint's distance from its place at rest, over its bone's length, which is rounding.
+constexpr double kNotMoved = 1e-5;
+
 /// Moves the joints of a rig that is the motion's skeleton as the motion does.
+/// \param isMoved see movedJoints()
 /// \param report of the clip: where the motion's space is in the rig's
 void addMoves(const Motion& motion, const RestSkeleton& rig, const std::vector<int>& motionJoint,
-              const RetargetReport& report, Clip& clip) {
+              const std::vector<bool>& isMoved, const RetargetReport& report, Clip& clip) {
     std::vector<glm::dquat> motionWorld, world;
     std::vector<glm::dvec3> theirs, ours;
     for (std::size_t f = 0; f < clip.frames; ++f) {
@@ -83,7 +105,7 @@ void addMoves(const Motion& motion, const RestSkeleton& rig, const std::vector<i
             const auto p = static_cast<std::size_t>(rig.joints[j].parent);
             const int driver = motionJoint[j];
             glm::dvec3 offset = rig.joints[j].centre - rig.joints[p].centre;
-            if (driver >= 0 && motion.moves.count(static_cast<std::size_t>(driver)) != 0) {
+            if (isMoved[j]) {
                 const glm::dvec3 place =
                     report.scale * (report.rotation * theirs[static_cast<std::size_t>(driver)]) +
                     report.offset;
@@ -92,6 +114,18 @@ void addMoves(const Motion& motion, const RestSkeleton& rig, const std::vector<i
             }
             ours[j] = ours[p] + world[p] * offset;
         }
+    }
+    for (std::size_t j = 1; j < clip.joints; ++j) { // those between which nothing turned
+        if (!isMoved[j] || motion.moves.count(static_cast<std::size_t>(motionJoint[j])) != 0)
+            continue;
+        const RestJoint& joint = rig.joints[j];
+        const glm::dvec3 offset =
+            joint.centre - rig.joints[static_cast<std::size_t>(joint.parent)].centre;
+        const std::vector<glm::dvec3>& offsets = clip.moves[j];
+        if (std::all_of(offsets.begin(), offsets.end(), [&](const glm::dvec3& moved) {
+                return glm::distance(moved, offset) <= kNotMoved * glm::length(offset);
+            }))
+            clip.moves.erase(j);
     }
 }
 
@@ -108,7 +142,11 @@ Clip retarget(const Motion& motion, const RestSkeleton& rig, const RetargetOptio
     Clip clip = pose.copied ? copied(motion, rig, map, *pose.copied, *report)
                             : aligned(motion, rig, map, pose, options, *report);
     clip.morphs = motion.morphs;
-    if (pose.isSame && !motion.moves.empty()) addMoves(motion, rig, map.motionJoint, *report, clip);
+    if (pose.isSame) {
+        const std::vector<bool> isMoved = movedJoints(motion, rig, map.motionJoint);
+        if (std::count(isMoved.begin(), isMoved.end(), true) > 0)
+            addMoves(motion, rig, map.motionJoint, isMoved, *report, clip);
+    }
     if (options.shareTwist && !pose.copied) {
         const std::vector<std::size_t> shared = HingeTwist(rig, map.rig).share(clip);
         for (std::size_t j = 0; j < shared.size(); ++j) report->entries[j].twistShared = shared[j];

@@ -3,6 +3,7 @@
 
 #include "names/NameWords.h"
 #include "names/Sides.h"
+#include "retarget/Posture.h"
 #include "skeleton/SkeletonTree.h"
 
 #include <osgSkin/Error>
@@ -88,16 +89,19 @@ int byRole(const JointPairs& map, std::size_t j) {
         std::lround(fraction * static_cast<double>(theirs.size() - 1)))];
 }
 
-/// Gives a motion's joints the roles of the rig's joints that have their names, where all of these
-/// are below each other in the same way: one more joint in the motion may have led to other roles.
-void shareRoles(JointPairs& map, const RestSkeleton& rig, const RestSkeleton& motion,
-                const ByName& motionJoints) {
-    if (!map.rig.known()) return;
-    JointRoles shared;
-    shared.family = map.motion.known() ? map.motion.family : map.rig.family;
-    shared.roles.resize(motion.joints.size());
-    shared.parts.resize(motion.joints.size());
-    std::vector<bool> isNamesake(motion.joints.size(), false);
+struct Namesakes {
+    std::vector<int> motionJoint; ///< [rig joint], -1 for none
+    bool areOfOneBody;            ///< whether the skeletons are the same but for further joints
+};
+
+/// The motion's joints that have names of the rig's, where all of these are below each other in the
+/// same way. Joints of one body may have others between them, but where one continues the joint
+/// above it, as a second one of the neck, and the skeletons rest alike, roles serve better.
+std::optional<Namesakes> fittingNamesakes(const JointPairs& map, const RestSkeleton& rig,
+                                          const RestSkeleton& motion, const ByName& motionJoints) {
+    Namesakes result{std::vector<int>(rig.joints.size(), -1), false};
+    bool isBetween = false, isOnlyTheirs = true, continues = false;
+    const auto role = [&](int m) { return map.motion.roles[static_cast<std::size_t>(m)]; };
     std::vector<int> nearest; // the namesake of a rig's joint or of the next one above that has one
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const int parent = rig.joints[j].parent;
@@ -105,16 +109,41 @@ void shareRoles(JointPairs& map, const RestSkeleton& rig, const RestSkeleton& mo
         const auto found = motionJoints.find(rig.joints[j].name);
         nearest.push_back(found == motionJoints.end() ? above : found->second);
         if (found == motionJoints.end()) continue;
-        const auto m = static_cast<std::size_t>(found->second);
-        if (above >= 0 && motion.joints[m].parent != above) return;
+        const int own = result.motionJoint[j] = found->second;
+        if (above < 0) continue;
+        isOnlyTheirs = isOnlyTheirs && result.motionJoint[static_cast<std::size_t>(parent)] >= 0;
+        const int next = motion.joints[static_cast<std::size_t>(own)].parent;
+        if (next == above) continue;
+        if (next < 0) return std::nullopt;
+        isBetween = true;
+        continues = continues ||
+                    (!role(next).empty() && role(next) == role(above) && role(next) != role(own));
+    }
+    const auto same = SameSkeleton::find(rig, motion, result.motionJoint);
+    result.areOfOneBody = same && same->isSameBody && !(continues && same->restsAlike);
+    if (isBetween && !(isOnlyTheirs && result.areOfOneBody)) return std::nullopt;
+    return result;
+}
+
+/// Gives a motion's joints the roles of the rig's joints that have their names: one more joint in
+/// the motion may have led to other roles.
+void shareRoles(JointPairs& map, const std::vector<int>& namesakes) {
+    JointRoles shared;
+    shared.family = map.motion.known() ? map.motion.family : map.rig.family;
+    shared.roles.resize(map.motion.roles.size());
+    shared.parts.resize(map.motion.parts.size());
+    std::vector<bool> isNamesake(shared.roles.size(), false);
+    for (std::size_t j = 0; j < namesakes.size(); ++j) {
+        if (namesakes[j] < 0) continue;
+        const auto m = static_cast<std::size_t>(namesakes[j]);
         isNamesake[m] = true;
         shared.roles[m] = map.rig.roles[j];
         shared.parts[m] = map.rig.parts[j];
-        if (!shared.roles[m].empty()) shared.joints[shared.roles[m]].push_back(found->second);
+        if (!shared.roles[m].empty()) shared.joints[shared.roles[m]].push_back(namesakes[j]);
     }
     const auto ofNamesakes = shared.joints;
     if (ofNamesakes.empty()) return;
-    for (std::size_t m = 0; m < motion.joints.size(); ++m) { // the others keep roles that are left
+    for (std::size_t m = 0; m < isNamesake.size(); ++m) { // the others keep roles that are left
         const std::string& role = map.motion.roles[m];
         if (isNamesake[m] || role.empty() || ofNamesakes.count(role) != 0) continue;
         shared.roles[m] = role;
@@ -155,7 +184,15 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
     map.motion = recogniseJoints(motion, options.names);
     if (isOneNameOnBothSides(map, rig, motion)) exchangeSides(map.motion);
     const ByName namesakes = findNamesakes(rig, motion);
-    shareRoles(map, rig, motion, namesakes);
+    std::vector<int> ofOneBody(rig.joints.size(), -1);
+    std::vector<bool> isTaken(motion.joints.size(), false);
+    if (map.rig.known())
+        if (const auto fitting = fittingNamesakes(map, rig, motion, namesakes)) {
+            shareRoles(map, fitting->motionJoint);
+            if (fitting->areOfOneBody) ofOneBody = fitting->motionJoint;
+        }
+    for (const int m : ofOneBody)
+        if (m >= 0) isTaken[static_cast<std::size_t>(m)] = true;
     for (std::size_t j = 0; j < rig.joints.size(); ++j) {
         const std::string& name = rig.joints[j].name;
         const auto named = options.joints.find(name);
@@ -163,8 +200,10 @@ JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
             map.motionJoint.push_back(named->second.empty() ? -1 : motionJoints.at(named->second));
             continue;
         }
-        const int found = byRole(map, j);
-        map.motionJoint.push_back(found >= 0 ? found : byName(map, namesakes, name, j));
+        int found = byRole(map, j);
+        if (found < 0) found = byName(map, namesakes, name, j);
+        if (found >= 0 && isTaken[static_cast<std::size_t>(found)]) found = -1;
+        map.motionJoint.push_back(ofOneBody[j] >= 0 ? ofOneBody[j] : found);
     }
     if (std::all_of(map.motionJoint.begin(), map.motionJoint.end(), [](int m) { return m < 0; }))
         throw Error("retarget: no joint of the rig has a joint of the same name in the motion");

@@ -28,9 +28,10 @@ struct JointPairs {
 };
 
 /// Maps the rig's joints to the motion's. The caller's map comes first (an empty motion name leaves
-/// the joint at rest), then the joint of the same role, then the joint of equal name, but for a
-/// prefix of all joints, unless it is known to be another part of the body. Spines and necks with
-/// different numbers of joints are matched end to end.
+/// the joint at rest), then, where both skeletons are of one body, the joint of equal name, then
+/// the joint of the same role, then the joint of equal name, but for a prefix of all joints, unless
+/// it is known to be another part of the body. Spines and necks with different numbers of joints
+/// are matched end to end.
 /// \throw osgSkin::Error where the map names a joint that is not there, or no joint matches.
 JointPairs mapJoints(const RestSkeleton& rig, const RestSkeleton& motion,
                      const RetargetOptions& options);

@@ -47,11 +47,20 @@ std::size_t at(int joint) {
     return static_cast<std::size_t>(joint);
 }
 
-/// The offset of a joint from its parent, in the parent's own frame.
-glm::dvec3 offset(const RestSkeleton& skeleton, int joint) {
-    const RestJoint& own = skeleton.joints[at(joint)];
-    const RestJoint& parent = skeleton.joints[at(own.parent)];
-    return glm::conjugate(parent.frame) * (own.centre - parent.centre);
+/// The offset of a joint from one above it, in that one's own frame.
+glm::dvec3 offset(const RestSkeleton& skeleton, int joint, int from) {
+    const RestJoint& above = skeleton.joints[at(from)];
+    return glm::conjugate(above.frame) * (skeleton.joints[at(joint)].centre - above.centre);
+}
+
+/// For each joint the nearest one above it for which `chosen` has an index; -1 for none.
+std::vector<int> nearestAbove(const RestSkeleton& skeleton, const std::vector<int>& chosen) {
+    std::vector<int> result;
+    for (const RestJoint& joint : skeleton.joints) {
+        const bool isNext = joint.parent < 0 || chosen[at(joint.parent)] >= 0;
+        result.push_back(isNext ? joint.parent : result[at(joint.parent)]);
+    }
+    return result;
 }
 
 double longest(const std::vector<glm::dvec3>& bones) {
@@ -89,11 +98,16 @@ std::optional<SameSkeleton> SameSkeleton::find(const RestSkeleton& rig, const Re
         const std::string &our = rig.joints[j].name, &their = motion.joints[at(driver)].name;
         if (our != their && our.substr(ourPrefix) != their.substr(theirPrefix)) return std::nullopt;
         rigJoint[at(driver)] = static_cast<int>(j);
-        const int parent = rig.joints[j].parent;
-        if (parent < 0 || motionJoint[at(parent)] < 0) continue;
-        if (motion.joints[at(driver)].parent != motionJoint[at(parent)]) return std::nullopt;
-        ours.push_back(offset(rig, static_cast<int>(j)));
-        theirs.push_back(offset(motion, driver));
+    }
+    const std::vector<int> ourNearest = nearestAbove(rig, motionJoint); // either may have more
+    const std::vector<int> theirNearest = nearestAbove(motion, rigJoint);
+    for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+        const int driver = motionJoint[j], from = ourNearest[j];
+        if (driver < 0 || from < 0) continue;
+        const int above = motionJoint[at(from)];
+        if (theirNearest[at(driver)] != above) return std::nullopt;
+        ours.push_back(offset(rig, static_cast<int>(j), from));
+        theirs.push_back(offset(motion, driver, above));
         ourLength += glm::length(ours.back());
         theirLength += glm::length(theirs.back());
     }
