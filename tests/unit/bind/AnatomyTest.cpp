@@ -4,6 +4,8 @@
 #include "correctives/Anatomy.h"
 
 #include "KnownBody.h"
+#include "Shapes.h"
+#include "garments/SkinLayers.h"
 
 #include <osgSkinBind/Bind>
 
@@ -34,7 +36,9 @@ public:
             if (body.truth.joints[joint.functions.joint].name == name) shaped = std::move(joint);
     }
 
-    void addTissue() { addTissues(recogniseJoints(body.truth), joints, mesh, nullptr, shaped); }
+    void addTissue(const SkinLayers* layers = nullptr) {
+        addTissues(recogniseJoints(body.truth), joints, mesh, layers, shaped);
+    }
 
     /// A bend about an axis of rest space, perpendicular to the joint's twist axis or made so.
     BendTwist bend(const glm::dvec3& axis, double degrees) const {
@@ -122,6 +126,43 @@ TEST(Anatomy, AnArmInFrontCountsFromTheHangingArm) {
     EXPECT_GT(at(0, {0, 0, 1}), 0.5);
     EXPECT_NEAR(at(0, {0, -1, 0}), at(1, {0, -1, 0}), 0.05); // none when it hangs
     EXPECT_GT(at(1, glm::normalize(glm::dvec3(-0.7, 0, 0.7))), at(1, {0, 0, 1}));
+}
+
+TEST(Anatomy, ClothMovesWithTheSkinBelow) {
+    KnownBody body = KnownBody::thrower();
+    const std::size_t naked = body.mesh.positions.size();
+    SkinMesh trousers = shapes::garment(
+        body.mesh, [](const glm::dvec3& p) { return p.y > 0.15 && p.y < 1.0; }, 0.014);
+    for (std::size_t v = 0; v < trousers.positions.size(); v += 2) // wrinkled
+        trousers.positions[v].y += 0.006;
+    body.mesh = shapes::joined(body.mesh, trousers);
+    JointOfThrower knee("LeftLeg", body);
+    ASSERT_FALSE(knee.shaped.vertices.empty());
+    findExtremities(knee.mesh, knee.joints);
+    const SkinLayers layers(knee.mesh, knee.joints, findRegions(knee.mesh, knee.joints, {}));
+    // How differently cloth and the nearest skin move, over the most that skin moves.
+    const auto apart = [&](const SkinLayers* on) {
+        knee.shaped.tissues.clear();
+        knee.addTissue(on);
+        const std::vector<glm::dvec3>& moves = knee.shaped.tissues.front().moves;
+        const auto indexOf = [&](std::size_t i) { return knee.shaped.vertices[i].index; };
+        double most = 0.0, differ = 0.0;
+        for (std::size_t i = 0; i < moves.size(); ++i) {
+            most = std::max(most, glm::length(moves[i]));
+            if (indexOf(i) < naked) continue;
+            std::size_t below = 0;
+            double nearest = 1e9;
+            for (std::size_t k = 0; k < moves.size() && indexOf(k) < naked; ++k) {
+                const double distance =
+                    glm::distance(knee.mesh.positions[indexOf(k)], knee.mesh.positions[indexOf(i)]);
+                if (distance < nearest) nearest = distance, below = k;
+            }
+            differ = std::max(differ, glm::distance(moves[i], moves[below]));
+        }
+        return differ / most;
+    };
+    EXPECT_LT(apart(&layers), 0.12);
+    EXPECT_GT(apart(nullptr), 0.18);
 }
 
 TEST(Anatomy, OnlyPeoplesLimbsHaveIt) {

@@ -327,6 +327,49 @@ TEST(FastShapes, SkinSlidesAlongWithKnownLimbs) {
         EXPECT_GT(slideOf(name), 0.0) << name;
 }
 
+// How far shapes move skin in front of a knee changes little from one vertex to the next.
+TEST(FastShapes, AKneecapDoesNotFold) {
+    const KnownBody body = KnownBody::shared("body4k_male", "cmu_mb_male");
+    if (body.mesh.positions.empty()) GTEST_SKIP() << "needs ../shared/data/makehuman";
+    const Binding plain = bound(body.mesh, body.truth, BindOptions::Shapes::None);
+    const Binding shaped = bound(body.mesh, body.truth, BindOptions::Shapes::Fast);
+    const auto knee = static_cast<std::size_t>(body.truth.find("LeftLeg"));
+    const glm::dvec3 axis(1, 0, 0), centre = plain.joints[knee].centre;
+    const auto from = turned(body.mesh, body.truth, plain, knee, axis, 130.0);
+    const auto to = turned(body.mesh, body.truth, shaped, knee, axis, 130.0);
+    const std::vector<std::uint32_t> corners = body.mesh.triangles();
+    double most = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
+        const glm::dvec3 at = body.mesh.positions[a] - centre;
+        if (at.z < 0.1 || glm::length(at) > 0.8) continue;
+        most = std::max(most, glm::distance(to[a] - from[a], to[b] - from[b]) /
+                                  glm::distance(body.mesh.positions[a], body.mesh.positions[b]));
+    }
+    EXPECT_GT(most, 0.1);
+    EXPECT_LT(most, 0.75);
+}
+
+// A stubby arm's skin would slide over the whole shoulder.
+TEST(FastShapes, SkinOfStubbyArmsSlidesLess) {
+    const auto slideOf = [](double girth) {
+        const KnownBody body = KnownBody::thrower().mapped([girth](const glm::dvec3& p) {
+            return glm::dvec3(p.x, girth * p.y, girth * p.z); // arms are along x
+        });
+        std::vector<std::string> notes;
+        const WeldedMesh mesh(body.mesh);
+        const Binding plain = bound(body.mesh, body.truth, BindOptions::Shapes::None);
+        for (const ShapedJoint& joint :
+             findShapedJoints(body.truth, planJoints(body.truth, mesh, {}, notes), mesh, plain))
+            if (body.truth.joints[joint.functions.joint].name == "LeftArm") return joint.slide;
+        return 0.0;
+    };
+    const double adult = slideOf(1.0);
+    EXPECT_GT(adult, 0.3);
+    EXPECT_LT(slideOf(1.3), 0.95 * adult);
+    EXPECT_LT(slideOf(1.6), 0.8 * adult);
+}
+
 TEST(FastShapes, ShouldersAndHipsSwellLess) {
     const KnownBody body = KnownBody::thrower();
     const Binding plain = bound(body.mesh, body.truth, BindOptions::Shapes::None);

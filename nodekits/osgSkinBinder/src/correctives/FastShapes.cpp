@@ -247,10 +247,11 @@ glm::dvec3 pressFold(const FoldShape& fold, const RestPoint& rest, const glm::dv
 /// centre, one for each of its vertices.
 class BentSkin {
 public:
+    /// \param relaxation of the joint
     /// \param rest restPointsOf() the joint
     /// \param childShare the share of the angle between both bones that the child's flesh fills
-    BentSkin(const ShapedJoint& joint, const std::vector<RestPoint>& rest, const BendTwist& bend,
-             double childShare = 0.5);
+    BentSkin(const ShapedJoint& joint, const SkinRelaxation& relaxation,
+             const std::vector<RestPoint>& rest, const BendTwist& bend, double childShare = 0.5);
 
     /// The rotation of each vertex.
     const std::vector<glm::dquat>& turns() const { return _turns; }
@@ -276,6 +277,7 @@ private:
     std::vector<glm::dvec3> slid(std::vector<glm::dvec3> points) const;
 
     const ShapedJoint& _joint;
+    const SkinRelaxation& _relaxation;
     const std::vector<RestPoint>& _rest;
     BendTwist _bend;
     FoldShape _fold;
@@ -385,9 +387,9 @@ Points Widening::by(const JointSections::Sides& shares) const {
     return result;
 }
 
-BentSkin::BentSkin(const ShapedJoint& joint, const std::vector<RestPoint>& rest,
-                   const BendTwist& bend, double childShare)
-    : _joint(joint), _rest(rest), _bend(bend),
+BentSkin::BentSkin(const ShapedJoint& joint, const SkinRelaxation& relaxation,
+                   const std::vector<RestPoint>& rest, const BendTwist& bend, double childShare)
+    : _joint(joint), _relaxation(relaxation), _rest(rest), _bend(bend),
       _fold(foldAt(joint, partialRotation(bend, joint.twistAxis, 1.0, 1.0), childShare)),
       _turns(joint.turnsOf(bend)) {
     for (std::size_t i = 0; i < _turns.size(); ++i) _posed.push_back(_turns[i] * rest[i].at);
@@ -424,12 +426,17 @@ JointSections::Sides BentSkin::sharesFor(const Widening& widening, const Points&
 }
 
 Points BentSkin::limbTargets(const JointSections& sections) const {
+    Points clamps;
+    for (std::size_t i = 0; i < _posed.size(); ++i)
+        clamps.push_back(clampBulge(_fold, _rest[i].at, _posed[i]) - _posed[i]);
+    // Beside a kneecap neighbours are clamped by different lengths, and would fold.
+    clamps = _relaxation.smoothed(std::move(clamps));
     const bool twists = std::abs(_bend.twistAngle) > 1e-9;
     glm::dquat turn = partialRotation(_bend, _joint.twistAxis, 1.0, 1.0);
     Points shaped;
     for (std::size_t i = 0; i < _posed.size(); ++i) {
         if (twists) turn = partialRotation(_bend, _joint.twistAxis, 1.0, _joint.vertices[i].twist);
-        const glm::dvec3 clamped = clampBulge(_fold, _rest[i].at, _posed[i]);
+        const glm::dvec3 clamped = _posed[i] + clamps[i];
         shaped.push_back(
             pressFold(_fold, _rest[i], restoreSection(_fold, _rest[i], clamped, turn)));
     }
@@ -506,11 +513,6 @@ std::vector<BendTwist> bendsOf(const ShapedJoint& joint) {
     return bends;
 }
 
-ShapedJoint turnedWherePossible(ShapedJoint joint) {
-    if (joint.functions.basis == CorrectiveJoint::Basis::Hinge) setTurnedHinge(joint);
-    return joint;
-}
-
 JointShapes shapesOf(const ShapedJoint& joint) {
     JointShapes shapes;
     shapes.functions = joint.functions;
@@ -527,7 +529,7 @@ JointShapes shapesOf(const ShapedJoint& joint) {
         const std::vector<RestPoint> rest = restPointsOf(joint, displaced);
         shapes.samples.push_back(
             joint.functions.coordinates(bend.bendAxis, bend.bendAngle, joint.twistAxis));
-        const BentSkin skin(joint, rest, bend, sections ? sections->childDepth() : 0.5);
+        const BentSkin skin(joint, relaxation, rest, bend, sections ? sections->childDepth() : 0.5);
         // A hinge's splines can meet all of its shapes.
         if (joint.functions.basis != CorrectiveJoint::Basis::TurnedHinge && !joint.isSoft)
             shapes.weights.push_back(skin.weights());
@@ -587,7 +589,8 @@ Correctives makeFastShapes(const RestSkeleton& skeleton, const JointRoles& roles
     std::vector<FittedShapes> all(shaped.size());
     parallelFor(shaped.size(), [&](std::size_t i) {
         addTissues(roles, joints, mesh, layers, shaped[i]);
-        all[i] = shapesOfFine(turnedWherePossible(std::move(shaped[i])));
+        if (shaped[i].functions.basis == CorrectiveJoint::Basis::Hinge) setTurnedHinge(shaped[i]);
+        all[i] = shapesOfFine(shaped[i]);
     });
     return packShapes(all, mesh.weldedOf);
 }

@@ -159,6 +159,10 @@ constexpr SkinMotion kHip{0.19, kCrease}, kKnee{0.10, kCrease}, kAnkle{0.2, 1.0}
 constexpr SkinMotion kNeck{0.5, 0.5}, kCollarBone{0.0, 0.8};
 constexpr SkinMotion kNone{0.0, 0.0};
 
+/// The slide of an arm grows to the whole between these lengths of its bone, in radii. Captured
+/// adults' arms are longer than that. A baby's skin would slide over the whole shoulder and fold.
+constexpr double kStubbyArm = 2.0, kSlenderArm = 4.3;
+
 SkinMotion motionOfLimb(const std::vector<PlannedJoint>& joints, std::size_t joint, bool atTrunk) {
     if (carries(joints, joint, JointPart::Hand)) return atTrunk ? kShoulder : kElbow;
     if (carries(joints, joint, JointPart::Foot)) return atTrunk ? kHip : kKnee;
@@ -335,6 +339,9 @@ std::vector<ShapedJoint> findShapedJoints(const RestSkeleton& skeleton,
         shaped.functions.joint = j;
         const SkinMotion motion = motionOfLimb(joints, j, atTrunk);
         shaped.slide = motion.slide;
+        if (atTrunk && carries(joints, j, JointPart::Hand))
+            shaped.slide *= hermiteRatio((planned.boneLength / shaped.radius - kStubbyArm) /
+                                         (kSlenderArm - kStubbyArm));
         shaped.relaxation = motion.relaxation;
         if (atTrunk) {
             setBallRange(acrossOf(joints, j), shaped);
