@@ -2,6 +2,7 @@
 #include "PeakMemory.h"
 #include "Ratios.h"
 #include "Shapes.h"
+#include "ratios/PackInfluences.h"
 
 #include <osgSkin/Error>
 #include <osgSkinBind/Bind>
@@ -189,6 +190,24 @@ TEST(Ratios, StayContinuousWhereManyJointsMeet) {
         corner += size;
     }
     EXPECT_LT(steepest, 0.3f); // rounding only the surplus joints would make steps of up to 0.5
+}
+
+// CMU's hip joints, which have no skin of their own, bend it as the thighs below them do. In the
+// cleft of the buttocks both thighs meet the spine.
+TEST(Ratios, JointsThatBeginALimbTogetherCountOnce) {
+    const std::vector<JointRatio> cleft = {{0, 1.0, 1.0},   {1, 0.1, 0.1},   {2, 0.08, 0.08},
+                                           {3, 0.08, 0.01}, {4, 0.07, 0.07}, {5, 0.07, 0.02}};
+    std::vector<Influence> packed;
+    EXPECT_FALSE(packInfluences(cleft, 4, packed));
+    ASSERT_EQ(packed.size(), cleft.size());
+    for (std::size_t i = 0; i < cleft.size(); ++i) {
+        EXPECT_FLOAT_EQ(packed[i].bend, static_cast<float>(cleft[i].bend)) << i;
+        EXPECT_FLOAT_EQ(packed[i].twist, static_cast<float>(cleft[i].twist)) << i;
+    }
+    std::vector<JointRatio> chain; // all that the runtime can split, and one more
+    for (std::uint32_t j = 0; j < 9; ++j) chain.push_back({j, 0.3, 0.3 - 0.01 * j});
+    packed.clear();
+    EXPECT_TRUE(packInfluences(chain, 4, packed));
 }
 
 TEST(Ratios, AreDeterministic) {

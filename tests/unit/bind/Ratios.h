@@ -22,15 +22,17 @@ inline std::size_t jointCalled(const osgSkin::Binding& binding, const std::strin
     return j;
 }
 
-/// Joints of the vertex with a ratio strictly between 0 and 1.
+/// Joints of the vertex with a ratio strictly between 0 and 1, without those that bend it as the
+/// next one does.
 inline std::size_t partialJoints(const osgSkin::Binding& binding, std::size_t vertex) {
     std::size_t count = 0;
     for (std::uint32_t i = binding.firstInfluence[vertex]; i < binding.firstInfluence[vertex + 1];
          ++i) {
         const osgSkin::Influence& influence = binding.influences[i];
-        if ((influence.bend > 0.0f && influence.bend < 1.0f) ||
-            (influence.twist > 0.0f && influence.twist < 1.0f))
-            ++count;
+        const bool isLast = i + 1 == binding.firstInfluence[vertex + 1];
+        const bool beginsLimb = !isLast && influence.bend == binding.influences[i + 1].bend &&
+                                influence.twist != binding.influences[i + 1].twist;
+        if (influence.isFractional() && !beginsLimb) ++count;
     }
     return count;
 }

@@ -27,10 +27,12 @@ float partialness(const Influence& i) {
 }
 
 /// partialness() of the first surplus joint; 0 if there is none.
-float excess(const std::vector<Influence>& all, std::size_t mostPartial) {
+/// \param counts whether an influence counts
+template <typename Counts>
+float excess(const std::vector<Influence>& all, std::size_t mostPartial, const Counts& counts) {
     std::vector<float> partial;
-    for (const Influence& influence : all)
-        if (influence.isFractional()) partial.push_back(partialness(influence));
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].isFractional() && counts(i)) partial.push_back(partialness(all[i]));
     if (partial.size() <= mostPartial) return 0.0f;
     const auto extra = partial.begin() + static_cast<std::ptrdiff_t>(mostPartial);
     std::nth_element(partial.begin(), extra, partial.end(), std::greater<>());
@@ -51,7 +53,13 @@ bool packInfluences(const std::vector<JointRatio>& ratios, std::size_t mostParti
     all.reserve(ratios.size());
     for (const JointRatio& of : ratios) all.push_back({of.joint, ratio(of.bend), ratio(of.twist)});
 
-    const float margin = excess(all, mostPartial);
+    const auto counts = [&all](std::size_t i) {
+        return i + 1 == all.size() || all[i].bend != all[i + 1].bend ||
+               all[i].twist == all[i + 1].twist;
+    };
+    const float margin =
+        std::max(excess(all, mostPartial, counts),
+                 excess(all, SkinModel::kMaxPartialInfluences, [](std::size_t) { return true; }));
     if (margin > 0.0f)
         for (Influence& influence : all) {
             // ratio() rounds those that differ from the surplus one only by rounding errors.
