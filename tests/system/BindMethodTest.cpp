@@ -110,6 +110,28 @@ TEST(BindMethod, ShellsWithoutWeightsDoNotPreventWeights) {
     }
 }
 
+/// As the middle of a skirt, half of both legs'.
+TEST(BindMethod, SkinFarBelowTwoBranchesIsTold) {
+    for (const double share : {0.5, 0.1}) {
+        test::GltfColumn column;
+        column.json["nodes"][0]["children"] = {1, 2};
+        column.json["nodes"][1].erase("children");
+        column.json["nodes"][2]["translation"] = {0, 2, 0};
+        std::vector<double> joints, weights;
+        for (int v = 0; v < 24; ++v) {
+            joints.insert(joints.end(), {v < 8 ? 1.0 : v / 8, v < 8 ? 2.0 : 0.0, 0, 0});
+            weights.insert(weights.end(), {v < 8 ? share : 1.0, v < 8 ? 1.0 - share : 0.0, 0, 0});
+        }
+        column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
+        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        const std::string file = column.save("branches" + std::to_string(share) + ".gltf");
+        const test::Notices notices;
+        osgSkin::loadCharacter(file);
+        EXPECT_EQ(notices.say("4 vertices follow both \"middle\" and \"top\""), share == 0.5)
+            << notices.text();
+    }
+}
+
 TEST(BindMethod, WeightsFileImpliesWeights) {
     const std::string weights = R"(, "weights": ")" + test::kTubeFolder + "weights.json\"";
     expectBend(

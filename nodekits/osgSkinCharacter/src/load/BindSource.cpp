@@ -396,6 +396,57 @@ void warnUnweighted(CharacterSource& source, const VertexWeights& weights) {
                                "that has");
 }
 
+/// Notes skin that follows two branches by a quarter or more each, far from where both begin, as
+/// the middle of a skirt.
+void warnBetweenBranches(CharacterSource& source, const VertexWeights& weights) {
+    constexpr double kMuch = 0.25, kFar = 0.35, kOnePlace = 0.01, kMany = 0.01;
+    const std::vector<RestJoint>& joints = source.rest.joints;
+    const double size = lengthOf(boxOf(source.body.mesh));
+    std::map<std::pair<int, int>, std::size_t> vertices; // of pairs of branches' first joints
+    std::vector<double> shares(joints.size(), 0.0);      // of subtrees
+    std::vector<int> beside(joints.size(), -1);          // by the parent: a child that has much
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        double all = 0.0;
+        std::vector<int> touched;
+        for (const JointWeight& entry : weights[v]) {
+            all += entry.weight;
+            for (int j = int(entry.joint); j >= 0; j = joints[std::size_t(j)].parent) {
+                if (shares[std::size_t(j)] == 0.0) touched.push_back(j);
+                shares[std::size_t(j)] += entry.weight;
+            }
+        }
+        for (const int j : touched) {
+            const double share = shares[std::size_t(j)];
+            const int parent = joints[std::size_t(j)].parent;
+            if (parent < 0 || share < kMuch * all || share > (1.0 - kMuch) * all) continue;
+            const int other = std::exchange(beside[std::size_t(parent)], j);
+            if (other < 0) continue;
+            const glm::dvec3 &first = joints[std::size_t(other)].centre,
+                             &second = joints[std::size_t(j)].centre;
+            const glm::dvec3& place = source.body.mesh.positions[v];
+            if (glm::distance(first, second) > kOnePlace * size && // not one bone twice
+                glm::distance(place, 0.5 * (first + second)) > kFar * size)
+                ++vertices[std::minmax(other, j)];
+        }
+        for (const int j : touched) {
+            shares[std::size_t(j)] = 0.0;
+            if (joints[std::size_t(j)].parent >= 0)
+                beside[std::size_t(joints[std::size_t(j)].parent)] = -1;
+        }
+    }
+    const auto most =
+        std::max_element(vertices.begin(), vertices.end(), [](const auto& one, const auto& other) {
+            return one.second < other.second;
+        });
+    if (most == vertices.end() || double(most->second) < kMany * double(weights.size())) return;
+    warn(source.notes,
+         source.meshFile + ": " + std::to_string(most->second) + " vertices follow both \"" +
+             joints[std::size_t(most->first.first)].name + "\" and \"" +
+             joints[std::size_t(most->first.second)].name +
+             "\" far below them: where these turn apart, the skin takes the mean of both "
+             "rotations and keeps its length, which linear blending shortens");
+}
+
 /// Notes that a mesh's own weights are not used.
 /// \param weights empty if they are for another skeleton
 void warnUnused(CharacterSource& source, const VertexWeights& weights) {
@@ -492,6 +543,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
     if (byWeights) {
         warnUnweighted(source, weights);
         warnUnitMismatch(source, weights);
+        warnBetweenBranches(source, weights);
     }
     if (source.painted == Painted::WhereGood && !byWeights) warnUnused(source, weights);
     if (!byWeights) {
