@@ -20,7 +20,8 @@ namespace {
 /// \param out, in tangents: two numbers for each key
 /// \param numbers of each key, of which the first counts
 std::map<double, double> samplesOf(const std::string& kind, const std::string& out,
-                                   const std::string& in, double end = 1.0, int numbers = 1) {
+                                   const std::string& in, double end = 1.0, int numbers = 1,
+                                   const std::string& target = "Tip/rotateZ.ANGLE") {
     const auto array = [](const char* id, const std::string& words, int count, int stride) {
         const std::string number = std::to_string(count), tag = id[0] == 'k' ? "Name" : "float";
         return std::string("<source id='") + id + "'><" + tag + "_array count='" + number + "'>" +
@@ -40,7 +41,9 @@ std::map<double, double> samplesOf(const std::string& kind, const std::string& o
                         "<input semantic='OUTPUT' source='#v'/><input "
                         "semantic='INTERPOLATION' source='#k'/><input semantic='IN_TANGENT' "
                         "source='#i'/><input semantic='OUT_TANGENT' source='#o'/></sampler>"
-                        "<channel source='#s' target='Tip/rotateZ.ANGLE'/></animation>"
+                        "<channel source='#s' target='" +
+                        target +
+                        "'/></animation>"
                         "</library_animations>";
     osgSkin::applyEdits(osgSkin::sampleCurves("curve.dae", bytes, {}), bytes);
     const auto read = [&bytes](const char* id) {
@@ -95,4 +98,14 @@ TEST(ColladaCurves, AreReadAsLinesWhereTheNoticeSaysSo) {
     };
     EXPECT_NE(noticesOf("CARDINAL", 1.0).find("are read as straight lines"), std::string::npos);
     EXPECT_EQ(noticesOf("CARDINAL", 0.04), "") << "dense";
+}
+
+TEST(ColladaCurves, OfAxisAndAngleTogetherAreTold) {
+    for (const std::string target : {"Tip/rotateZ", "Tip/rotateZ.ANGLE"}) {
+        const bool isWhole = target == "Tip/rotateZ";
+        const test::Notices notices;
+        samplesOf("LINEAR", "0 0 0 0", "0 0 0 0", 1.0, isWhole ? 4 : 1, target);
+        EXPECT_EQ(notices.say("\"Tip/rotateZ\", of axis and angle together"), isWhole)
+            << notices.text();
+    }
 }

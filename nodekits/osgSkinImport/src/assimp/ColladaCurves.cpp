@@ -27,6 +27,7 @@ struct Source {
 struct Sampler {
     std::map<std::string_view, std::string_view> inputs;
     bool isAngle = false;
+    std::string_view whole; ///< what it moves, if that is not a single number
 
     std::string_view operator[](std::string_view semantic) const {
         const auto found = inputs.find(semantic);
@@ -57,7 +58,14 @@ public:
 
     TextEdits sample() {
         std::map<std::string_view, std::vector<const Sampler*>> byTimes;
-        for (const auto& [id, sampler] : _samplers) byTimes[sampler["INPUT"]].push_back(&sampler);
+        for (const auto& [id, sampler] : _samplers) {
+            byTimes[sampler["INPUT"]].push_back(&sampler);
+            const auto output = _sources.find(sampler["OUTPUT"]);
+            if (!sampler.whole.empty() && output != _sources.end() && output->second.stride == 4)
+                warn(_path, "the curve of \"" + std::string(sampler.whole) +
+                                "\", of axis and angle together, is left out: export curves of "
+                                "angles or matrices");
+        }
         for (const auto& [times, samplers] : byTimes) sample(times, samplers);
         if (_isLeft)
             warn(_path, "curves that are neither BEZIER, HERMITE nor STEP, curves of matrices, "
@@ -88,6 +96,7 @@ private:
                 const std::string_view moved = attribute(at, "target");
                 const std::size_t dot = moved.rfind('.');
                 _samplers[target(at)].isAngle = dot != moved.npos && moved.substr(dot) == ".ANGLE";
+                if (dot == moved.npos) _samplers[target(at)].whole = moved;
             }
             if (name == "input" && sampler != nullptr)
                 sampler->inputs.emplace(attribute(at, "semantic"), target(at));
