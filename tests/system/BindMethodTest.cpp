@@ -132,6 +132,65 @@ TEST(BindMethod, SkinFarBelowTwoBranchesIsTold) {
     }
 }
 
+/// Exporters of games put all bones on the root, and write their moves in its space.
+TEST(BindMethod, SkinBetweenBonesSideBySideIsTold) {
+    for (const bool moves : {false, true}) {
+        test::GltfColumn column;
+        column.json["nodes"][0]["children"] = {1, 2};
+        column.json["nodes"][1].erase("children");
+        column.json["nodes"][2]["translation"] = {0, 2, 0};
+        std::vector<double> joints, weights;
+        for (int v = 0; v < 24; ++v) {
+            joints.insert(joints.end(), {v < 8 ? 0.0 : 1.0, v < 8 ? 0.0 : 2.0, 0, 0});
+            weights.insert(weights.end(), {v < 8 ? 1.0 : 0.5, v < 8 ? 0.0 : 0.5, 0, 0});
+        }
+        column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
+        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        column.animate("bend", 2, "rotation", {0.0, 1.0}, test::GltfColumn::turns({0, 90}));
+        if (moves) column.animate("bend", 2, "translation", {0.0, 1.0}, {0, 2, 0, 0, 1, 1});
+        const std::string file = column.save(moves ? "flat_moves.gltf" : "flat.gltf");
+        const test::Notices notices;
+        osgSkin::loadCharacter(file);
+        EXPECT_EQ(notices.say("skin between the joints \"middle\" and \"top\" may tear"), moves)
+            << notices.text();
+    }
+}
+
+TEST(BindMethod, SharesThatAreLeftOutAreTold) {
+    for (const int deep : {4, 5}) {
+        test::GltfColumn column;
+        std::vector<double> matrices, joints, weights;
+        column.json["nodes"][0]["children"] = nlohmann::json::array();
+        for (const std::string branch : {"a", "b"})
+            for (int k = 0; k < deep; ++k) {
+                const std::size_t above = k == 0 ? 0 : column.json["nodes"].size() - 1;
+                const std::size_t own = column.node({{"name", branch + std::to_string(k)},
+                                                     {"translation", {0, k == 0 ? 0 : 0.5, 0}}});
+                column.json["nodes"][above]["children"].push_back(own);
+                column.joints.push_back(own);
+            }
+        column.joints.erase(column.joints.begin() + 1, column.joints.begin() + 3);
+        for (std::size_t j = 0; j < column.joints.size(); ++j)
+            for (int k = 0; k < 16; ++k)
+                matrices.push_back(k == 13      ? -0.5 * double(j == 0 ? 0 : (int(j) - 1) % deep)
+                                   : k % 5 == 0 ? 1.0
+                                                : 0.0);
+        column.json["skins"][0] = {{"joints", column.joints},
+                                   {"inverseBindMatrices", column.accessor("MAT4", matrices)}};
+        for (int v = 0; v < 24; ++v) {
+            joints.insert(joints.end(), {double(deep), 2.0 * deep, 0, 0});
+            weights.insert(weights.end(), {0.6, 0.4, 0, 0});
+        }
+        column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
+        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        const std::string file = column.save("branches_" + std::to_string(deep) + ".gltf");
+        const test::Notices notices;
+        osgSkin::loadCharacter(file);
+        EXPECT_EQ(notices.say("24 vertices follow more than 8 joints in part"), deep == 5)
+            << notices.text();
+    }
+}
+
 TEST(BindMethod, WeightsFileImpliesWeights) {
     const std::string weights = R"(, "weights": ")" + test::kTubeFolder + "weights.json\"";
     expectBend(

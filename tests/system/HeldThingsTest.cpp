@@ -39,15 +39,23 @@ const Joint kJoints[] = {
     {"upperarm.l", 2, 0.3, 1.3},  {"lowerarm.l", 9, 0.9, 1.3}, {"hand.l", 10, 1.5, 1.3}};
 constexpr int kHead = 4, kSlot = 8;
 
+/// A plume on the head, of joints without roles.
+const Joint kPlume[] = {{"plume1", kHead, 0, 3.0},
+                        {"plume2", 12, 0, 3.4},
+                        {"plume3", 13, 0, 3.8},
+                        {"plume4", 14, 0, 4.2}};
+
 struct Fighter : GltfBuilder {
     std::vector<double> places, corners, indices;
     std::size_t sword = 0, head = 0; ///< their first vertices, 8 each
     std::vector<std::size_t> joints;
 
-    explicit Fighter(bool painted, bool isExploded = false) {
-        for (const Joint& joint : kJoints) {
-            const double x = joint.parent < 0 ? 0.0 : kJoints[joint.parent].x;
-            const double y = joint.parent < 0 ? 0.0 : kJoints[joint.parent].y;
+    explicit Fighter(bool painted, bool isExploded = false, bool hasPlume = false) {
+        std::vector<Joint> all(std::begin(kJoints), std::end(kJoints));
+        if (hasPlume) all.insert(all.end(), std::begin(kPlume), std::end(kPlume));
+        for (const Joint& joint : all) {
+            const double x = joint.parent < 0 ? 0.0 : all[std::size_t(joint.parent)].x;
+            const double y = joint.parent < 0 ? 0.0 : all[std::size_t(joint.parent)].y;
             joints.push_back(
                 node({{"name", joint.name}, {"translation", {joint.x - x, joint.y - y, 0}}}));
             if (joint.parent >= 0)
@@ -57,6 +65,7 @@ struct Fighter : GltfBuilder {
         sword = addBox(-1.75, -0.4, 1.36, 1.44, 0.05, kSlot);
         head = addBox(-0.35, 0.35, 1.42, 2.3, 0.3, kHead);
         if (isExploded) explode();
+        if (hasPlume) addPlume();
         nlohmann::json attributes = {{"POSITION", accessor("VEC3", places)}};
         if (painted) {
             std::vector<double> whole;
@@ -69,7 +78,7 @@ struct Fighter : GltfBuilder {
             {{"primitives",
               {{{"attributes", attributes}, {"indices", accessor("SCALAR", indices, 5123)}}}}});
         std::vector<double> matrices;
-        for (const Joint& joint : kJoints)
+        for (const Joint& joint : all)
             for (int k = 0; k < 16; ++k)
                 matrices.push_back(k == 12      ? -joint.x
                                    : k == 13    ? -joint.y
@@ -84,7 +93,7 @@ struct Fighter : GltfBuilder {
         json["scenes"][0]["nodes"] = {0, node(body)};
         for (const char* name : {"upperarm.r", "hand.r", "neck", "head"})
             for (std::size_t j = 0; j < joints.size(); ++j)
-                if (name == std::string(kJoints[j].name))
+                if (name == std::string(all[j].name))
                     animate("fight", joints[j], "rotation", {0.0, 1.0},
                             GltfColumn::turns({20, 50}));
     }
@@ -164,6 +173,25 @@ struct Fighter : GltfBuilder {
                 }
     }
 
+    /// A tube of nine rings of four vertices, from the head upwards.
+    void addPlume() {
+        const std::size_t first = places.size() / 3;
+        for (int ring = 0; ring < 9; ++ring)
+            for (const double side : {-0.05, 0.05})
+                for (const double deep : {-side, side})
+                    vertex(side, 2.95 + 0.2 * ring, deep, 12 + std::min(ring / 2, 3));
+        const auto quad = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+            for (const std::size_t corner : {a, b, c, a, c, d})
+                indices.push_back(double(first + corner));
+        };
+        for (std::size_t ring = 0; ring < 8; ++ring)
+            for (std::size_t k = 0; k < 4; ++k)
+                quad(4 * ring + k, 4 * ring + 4 + k, 4 * ring + 4 + (k + 1) % 4,
+                     4 * ring + (k + 1) % 4);
+        quad(0, 1, 2, 3);
+        quad(35, 34, 33, 32);
+    }
+
     std::size_t addBox(double left, double right, double low, double high, double deep, int joint) {
         const std::size_t first = places.size() / 3;
         for (int c = 0; c < 8; ++c)
@@ -237,4 +265,18 @@ TEST(HeldThings, UnpaintedShellOfAHeadFollowsTheHead) {
         const std::string said = character.bindReport.text();
         test::expectContains(said, "note: 1 shells follow one joint");
     }
+}
+
+/// Such as a tail of hair: what has joints of its own is no rigid part of the head.
+TEST(HeldThings, ShellWithAChainOfItsOwnFollowsTheChain) {
+    Fighter painted(true, false, true);
+    painted.save("plumed_rig.gltf");
+    Fighter bare(false, false, true);
+    bare.json.erase("animations");
+    bare.save("plumed_mesh.gltf");
+    const Character character = osgSkin::loadCharacter(test::saveSkin(
+        testing::TempDir() + "plumed.skin", {}, "plumed_mesh.gltf", "plumed_rig.gltf"));
+    const std::size_t last = character.body.mesh.positions.size() - 1; // at the top
+    EXPECT_EQ(character.binding.joints[character.binding.regions[last]].name, "plume4");
+    EXPECT_EQ(character.binding.joints[character.binding.regions[last - 16]].name, "plume2");
 }

@@ -7,6 +7,7 @@
 #include <osgSkin/Error>
 #include <osgSkin/ExpectedNames>
 #include <osgSkin/GlmOsg>
+#include <osgSkin/SkinModel>
 #include <osgSkinBind/Bind>
 #include <osgSkinBind/BindReport>
 #include <osgSkinBind/BindWeights>
@@ -241,9 +242,14 @@ public:
         const int extremity = _extremities[joint];
         if (extremity < 0) return -1;
         if (!_weights.empty() && *most >= kWhole * all) return static_cast<int>(joint);
-        double under = 0.0;
-        for (std::size_t j = 0; j < shares.size(); ++j)
-            if (_extremities[j] == extremity) under += shares[j];
+        double under = 0.0, ofChains = 0.0; // such as a tail of hair
+        for (std::size_t j = 0; j < shares.size(); ++j) {
+            if (_extremities[j] != extremity) continue;
+            under += shares[j];
+            const auto above = static_cast<std::size_t>(_binding.joints[j].parent);
+            if (_roles.roles[j].empty() && _roles.roles[above].empty()) ofChains += shares[j];
+        }
+        if (_weights.empty() && ofChains > 0.5 * all) return -1;
         const bool isHead = _roles.is(static_cast<std::size_t>(extremity), JointPart::Head);
         return isHead && under > (_weights.empty() ? kMaxOf : kWhole) * all ? extremity : -1;
     }
@@ -544,6 +550,12 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         warnUnweighted(source, weights);
         warnUnitMismatch(source, weights);
         warnBetweenBranches(source, weights);
+        if (report.cappedVertices > weights.size() / 100)
+            warn(source.notes, source.meshFile + ": " + std::to_string(report.cappedVertices) +
+                                   " vertices follow more than " +
+                                   std::to_string(SkinModel::kMaxPartialInfluences) +
+                                   " joints in part, as between two long chains: the least shares "
+                                   "are left out, and the skin may tear there");
     }
     if (source.painted == Painted::WhereGood && !byWeights) warnUnused(source, weights);
     if (!byWeights) {

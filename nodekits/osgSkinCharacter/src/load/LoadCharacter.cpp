@@ -74,6 +74,7 @@ Character makeCharacter(CharacterSource source, const LoadOptions& options, Load
     setRigidParts(source, character.motions);
     const Progress binding = stages.begin("binding", source.bindingSize());
     character.binding = bindSource(source, binding, character.bindReport);
+    warnFlatSkeleton(source, character.binding);
     animateMotions(source, character.binding, character.motions);
     stages.begin("scene", source.sceneSize());
     character.file = source.file;

@@ -35,6 +35,13 @@ std::vector<CharacterMotion> retargetMotions(CharacterSource& source,
 void animateMotions(const CharacterSource& source, const Binding& binding,
                     std::vector<CharacterMotion>& motions);
 
+/// Warns about skin between joints that hang side by side, of which a clip of the model moves one
+/// as if it hung on the other: exporters of games put all bones on the root. The skin follows parts
+/// of both moves about the joints at rest.
+///
+/// \param binding of the source's body
+void warnFlatSkeleton(CharacterSource& source, const Binding& binding);
+
 /// Sets the joints of rigid parts where no option does: heads, hands and feet whose fingers, toes
 /// or other descendants no motion moves. Without motions automaticRigidJoints() decides. A note
 /// names the rigid parts that could bend.
