@@ -453,6 +453,30 @@ void warnBetweenBranches(CharacterSource& source, const VertexWeights& weights) 
              "rotations and keeps its length, which linear blending shortens");
 }
 
+/// Notes skin of which the binding leaves much of the weights out.
+void warnLeftOut(CharacterSource& source, const VertexWeights& weights, const Binding& binding) {
+    constexpr double kMuch = 0.1, kMany = 0.01;
+    std::size_t vertices = 0;
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        const auto begin = binding.influences.begin() + binding.firstInfluence[v];
+        const auto end = binding.influences.begin() + binding.firstInfluence[v + 1];
+        double all = 0.0, out = 0.0;
+        for (const JointWeight& entry : weights[v]) {
+            all += entry.weight;
+            if (std::none_of(begin, end,
+                             [&](const Influence& i) { return i.joint == entry.joint; }))
+                out += entry.weight;
+        }
+        if (out > kMuch * all) ++vertices;
+    }
+    if (double(vertices) > kMany * double(weights.size()))
+        warn(source.notes, source.meshFile + ": " + std::to_string(vertices) +
+                               " vertices follow more than " +
+                               std::to_string(SkinModel::kMaxPartialInfluences) +
+                               " joints in part, as between two long chains: the least shares "
+                               "are left out, and the skin may tear there");
+}
+
 /// Notes that a mesh's own weights are not used.
 /// \param weights empty if they are for another skeleton
 void warnUnused(CharacterSource& source, const VertexWeights& weights) {
@@ -550,12 +574,7 @@ Binding bindSource(CharacterSource& source, const Progress& progress, BindReport
         warnUnweighted(source, weights);
         warnUnitMismatch(source, weights);
         warnBetweenBranches(source, weights);
-        if (report.cappedVertices > weights.size() / 100)
-            warn(source.notes, source.meshFile + ": " + std::to_string(report.cappedVertices) +
-                                   " vertices follow more than " +
-                                   std::to_string(SkinModel::kMaxPartialInfluences) +
-                                   " joints in part, as between two long chains: the least shares "
-                                   "are left out, and the skin may tear there");
+        warnLeftOut(source, weights, binding);
     }
     if (source.painted == Painted::WhereGood && !byWeights) warnUnused(source, weights);
     if (!byWeights) {
