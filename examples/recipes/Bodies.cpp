@@ -97,7 +97,7 @@ void Bodies::stepTo(double time) {
 }
 
 osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size) {
-    return fallDownStairs(file, size, {0.0, -0.7, 0.0});
+    return fallDownStairs(file, size, {0.0, -0.62, 0.0});
 }
 
 osg::ref_ptr<osg::Node> fallDownStairs(const std::string& file, double size,
