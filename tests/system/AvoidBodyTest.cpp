@@ -142,6 +142,12 @@ struct RoundBody {
         return {hand("LeftHand"), hand("RightHand")};
     }
 
+    /// From the right palm to the left one, in sample 30.
+    glm::dvec3 apart(const Clip& clip) const {
+        const auto [left, right] = hands(clip, 30);
+        return left - right;
+    }
+
     osgSkin::AvoidBodyReport clear(Clip& clip) const {
         return osgSkin::avoidBody(clip, rest, roles, mesh, binding);
     }
@@ -246,15 +252,11 @@ TEST(AvoidBody, KeepsTouchingHandsTogether) {
         before.rotations[f * before.joints + body.upper] = turn(-27.0);
         before.rotations[f * before.joints + right] = turn(27.0);
     }
-    const auto apart = [&](const Clip& clip) {
-        const auto [left, other] = body.hands(clip, 30);
-        return left - other;
-    };
-    ASSERT_LT(glm::length(apart(before)), 0.08);
+    ASSERT_LT(glm::length(body.apart(before)), 0.08);
     ASSERT_GT(body.depth(before, 30), 0.01);
     Clip after = before;
     EXPECT_GT(body.clear(after).largestDegrees, 2.0);
-    EXPECT_LT(glm::distance(apart(after), apart(before)), 0.02);
+    EXPECT_LT(glm::distance(body.apart(after), body.apart(before)), 0.02);
 }
 
 TEST(AvoidBody, DoesNotChangeContactsOfTheRestPose) {
@@ -295,16 +297,12 @@ TEST(AvoidBody, TurnsBothArmsWhereHandsTouchAndOneCuts) {
         before.rotations[f * before.joints + body.upper] = turn(32.0, -32.0);
         before.rotations[f * before.joints + right] = turn(40.0, 20.0);
     }
-    const auto apart = [&](const Clip& clip) {
-        const auto [left, other] = body.hands(clip, 30);
-        return left - other;
-    };
-    ASSERT_LT(glm::length(apart(before)), 0.08);
+    ASSERT_LT(glm::length(body.apart(before)), 0.08);
     ASSERT_GT(body.depth(before, 30), 0.01);
     Clip after = before;
     EXPECT_GT(body.clear(after).largestDegrees, 2.0);
     EXPECT_LT(body.depth(after, 30), 0.004);
-    EXPECT_LT(glm::distance(apart(after), apart(before)), 0.02);
+    EXPECT_LT(glm::distance(body.apart(after), body.apart(before)), 0.02);
 }
 
 TEST(AvoidBody, KeepsAWalkersHandsOutOfAWideBody) {

@@ -32,6 +32,22 @@ void expectBend(const Character& character, const std::function<double(double)>&
     }
 }
 
+/// A column whose upper joints hang side by side on the lowest.
+test::GltfColumn forked() {
+    test::GltfColumn column;
+    column.json["nodes"][0]["children"] = {1, 2};
+    column.json["nodes"][1].erase("children");
+    column.json["nodes"][2]["translation"] = {0, 2, 0};
+    return column;
+}
+
+/// \param joints, weights four for each vertex
+void paint(test::GltfColumn& column, const std::vector<double>& joints,
+           const std::vector<double>& weights) {
+    column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
+    column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+}
+
 } // namespace
 
 TEST(BindMethod, WeightsGiveTheRatiosOfTheFile) {
@@ -113,17 +129,13 @@ TEST(BindMethod, ShellsWithoutWeightsDoNotPreventWeights) {
 /// As the middle of a skirt, half of both legs'.
 TEST(BindMethod, SkinFarBelowTwoBranchesIsTold) {
     for (const double share : {0.5, 0.1}) {
-        test::GltfColumn column;
-        column.json["nodes"][0]["children"] = {1, 2};
-        column.json["nodes"][1].erase("children");
-        column.json["nodes"][2]["translation"] = {0, 2, 0};
+        test::GltfColumn column = forked();
         std::vector<double> joints, weights;
         for (int v = 0; v < 24; ++v) {
             joints.insert(joints.end(), {v < 8 ? 1.0 : v / 8, v < 8 ? 2.0 : 0.0, 0, 0});
             weights.insert(weights.end(), {v < 8 ? share : 1.0, v < 8 ? 1.0 - share : 0.0, 0, 0});
         }
-        column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
-        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        paint(column, joints, weights);
         const std::string file = column.save("branches" + std::to_string(share) + ".gltf");
         const test::Notices notices;
         osgSkin::loadCharacter(file);
@@ -135,17 +147,13 @@ TEST(BindMethod, SkinFarBelowTwoBranchesIsTold) {
 /// Exporters of games put all bones on the root, and write their moves in its space.
 TEST(BindMethod, SkinBetweenBonesSideBySideIsTold) {
     for (const bool moves : {false, true}) {
-        test::GltfColumn column;
-        column.json["nodes"][0]["children"] = {1, 2};
-        column.json["nodes"][1].erase("children");
-        column.json["nodes"][2]["translation"] = {0, 2, 0};
+        test::GltfColumn column = forked();
         std::vector<double> joints, weights;
         for (int v = 0; v < 24; ++v) {
             joints.insert(joints.end(), {v < 8 ? 0.0 : 1.0, v < 8 ? 0.0 : 2.0, 0, 0});
             weights.insert(weights.end(), {v < 8 ? 1.0 : 0.5, v < 8 ? 0.0 : 0.5, 0, 0});
         }
-        column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
-        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        paint(column, joints, weights);
         column.animate("bend", 2, "rotation", {0.0, 1.0}, test::GltfColumn::turns({0, 90}));
         if (moves) column.animate("bend", 2, "translation", {0.0, 1.0}, {0, 2, 0, 0, 1, 1});
         const std::string file = column.save(moves ? "flat_moves.gltf" : "flat.gltf");
@@ -181,8 +189,7 @@ TEST(BindMethod, SharesThatAreLeftOutAreTold) {
             joints.insert(joints.end(), {double(deep), 2.0 * deep, 0, 0});
             weights.insert(weights.end(), {0.6, 0.4, 0, 0});
         }
-        column.attributes()["JOINTS_0"] = column.accessor("VEC4", joints, 5121);
-        column.attributes()["WEIGHTS_0"] = column.accessor("VEC4", weights);
+        paint(column, joints, weights);
         const std::string file = column.save("branches_" + std::to_string(deep) + ".gltf");
         const test::Notices notices;
         osgSkin::loadCharacter(file);

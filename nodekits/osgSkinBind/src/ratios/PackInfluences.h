@@ -22,9 +22,8 @@ struct JointRatio {
 /// Two joints with the same bend ratio and different twist ratios begin one limb, as CMU's hip
 /// joints and thighs, and count once, as long as there are no more than
 /// SkinModel::kMaxPartialInfluences. If there are more, all ratios are stretched by the amount that
-/// rounds the surplus ones to 0 or
-/// 1. The result is as continuous over the skin as the fields are (rounding only the surplus ones
-/// would tear it), and no joint's ratio exceeds its parent's.
+/// rounds the surplus ones to 0 or 1. The result is as continuous over the skin as the fields are
+/// (rounding only the surplus ones would tear it), and no joint's ratio exceeds its parent's.
 ///
 /// \param ratios of the vertex, in joint order; missing ones are 0
 /// \param mostPartial how many influences may be fractional

@@ -21,7 +21,7 @@ struct XmlValue {
 /// Finds the value of an attribute of the element whose start tag begins at `tag`.
 std::optional<XmlValue> findAttribute(std::string_view xml, std::size_t tag, std::string_view name);
 
-/// What to replace in a text, by place: its size, and the text for it.
+/// Changes of a text: from a place on, how many characters to replace, and by what.
 using TextEdits = std::map<std::size_t, std::pair<std::size_t, std::string>>;
 
 void applyEdits(const TextEdits& edits, std::string& text);
